@@ -1,0 +1,173 @@
+"""The rig: binds a function block to a plant, drives it scan by scan, and records everything it reads and writes."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass, field
+from math import floor
+from random import Random
+
+import numpy as np
+
+from plcgen.plc.core import Program
+from plcgen.plc.machine import Machine, Variable
+from plcgen.plc.types import BYTE_BITS, Elementary, Family, Structure
+from plcgen.trajectory import Trajectory
+
+
+@dataclass(frozen=True)
+class Encoder:
+    """How travel is measured: in steps of `quantum` (0 = REAL resolution), `delay` scans late."""
+
+    quantum: float = 0.0
+    delay: int = 0
+
+    def read(self, travel: float) -> float:
+        return floor(travel / self.quantum) * self.quantum if self.quantum else travel
+
+
+@dataclass(frozen=True)
+class Clock:
+    """When the cyclic interrupt comes: each call up to `jitter` periods early or late, without drift."""
+
+    period: float
+    jitter: float = 0.0
+    seed: int = 1
+
+
+@dataclass
+class Plant:
+    """An ideal drive: the hoist moves at the setpoint of the last scan. `history` holds what a late encoder reads."""
+
+    travel: float
+    velocity: float = 0.0
+    time: float = 0.0
+    history: deque[float] = field(default_factory=deque)
+
+    def move_to(self, time: float) -> None:
+        self.travel += self.velocity * (time - self.time)
+        self.time = time
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A moment of a rig to come back to."""
+
+    memory: bytes
+    plant: Plant
+    scans: int
+
+
+class Rig:
+    """One instance of a block with its plant. Inputs keep their value until they are set again."""
+
+    SETPOINT, TRAVEL, VELOCITY = "limitedSetpoint", "actualTravel", "actualVelocity"
+
+    def __init__(
+        self,
+        program: Program,
+        block: str,
+        instance: str,
+        travel: float,
+        clock: Clock,
+        encoder: Encoder = Encoder(),
+        temp_fill: int = 0,
+    ) -> None:
+        self.machine = Machine(program, temp_fill)
+        self.block, self.instance = block, instance
+        self.clock, self.encoder = clock, encoder
+        self.plant = Plant(travel)
+        self.scans = 0
+        self.forced: dict[str, float] = {}
+        self._random = Random(clock.seed)
+        self._memory = self.machine.memory[instance]
+        self._records: list[tuple[float, float, bytes]] = []
+        self._call = self.machine.call
+        self._travel, self._velocity, self._setpoint = (
+            self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
+        )
+
+    def variable(self, name: str) -> Variable:
+        return self.machine.variable(f'"{self.instance}".{name}')
+
+    def set(self, **inputs: float) -> None:
+        """Set inputs of the block."""
+        for name, value in inputs.items():
+            self.variable(name).set(value)
+
+    def get(self, name: str) -> float:
+        """An output of the block after the last scan."""
+        return float(self.variable(name).get())
+
+    def force(self, **measurements: float) -> None:
+        """Replace what encoder or drive report until `release`."""
+        self.forced.update(measurements)
+
+    def release(self) -> None:
+        self.forced.clear()
+
+    def scan(self) -> None:
+        """One call of the cyclic interrupt."""
+        jitter = self._random.uniform(-self.clock.jitter, self.clock.jitter) if self.clock.jitter else 0.0
+        self.plant.move_to((self.scans + jitter) * self.clock.period)
+        self._travel.set(self.forced.get(self.TRAVEL, self._measured()))
+        self._velocity.set(self.forced.get(self.VELOCITY, self.plant.velocity))
+        self.machine.scan = self.scans
+        self._call(self.block, self.instance)
+        self.plant.velocity = self._setpoint.get()
+        self._records.append((self.plant.time, self.plant.travel, bytes(self._memory)))
+        self.scans += 1
+
+    def _measured(self) -> float:
+        reading = self.encoder.read(self.plant.travel)
+        if not self.encoder.delay:
+            return reading
+        history = self.plant.history
+        history.append(reading)
+        return history.popleft() if len(history) > self.encoder.delay else history[0]
+
+    def run(self, scans: int, until: Callable[[Rig], bool] = lambda _rig: False) -> bool:
+        """Scan until the condition holds after a scan; False when `scans` were not enough."""
+        for _ in range(scans):
+            self.scan()
+            if until(self):
+                return True
+        return False
+
+    def snapshot(self) -> Snapshot:
+        return Snapshot(bytes(self._memory), deepcopy(self.plant), self.scans)
+
+    def restore(self, moment: Snapshot) -> None:
+        """Go back to a moment; the record begins anew there."""
+        self._memory[:] = moment.memory
+        self.plant = deepcopy(moment.plant)
+        self.scans = moment.scans
+        self.release()
+        self._records.clear()
+
+    def trace(self) -> Trajectory:
+        """Everything recorded: time, plant travel, and every elementary variable of the interface."""
+        structure = self.machine.program.functions[self.block].instance
+        assert structure is not None
+        times, travels, images = zip(*self._records, strict=True)
+        columns = {"time": np.array(times), "plantTravel": np.array(travels)}
+        return Trajectory(columns | _decode(b"".join(images), len(images), structure))
+
+
+def _decode(data: bytes, rows: int, structure: Structure) -> dict[str, np.ndarray]:
+    """Columns of the elementary members of equal memory images that follow each other."""
+    size = len(data) // rows
+    columns = {}
+    for member in structure.fields:
+        if not isinstance(member.type, Elementary):
+            continue
+        byte, bit = divmod(member.bit, BYTE_BITS)
+        dtype = np.dtype(">" + member.type.code)
+        column = np.ndarray((rows,), dtype, data, byte, (size,))
+        if member.type.family is Family.BIT:
+            columns[member.name] = (column >> bit & 1).astype(bool)
+        else:
+            columns[member.name] = column.astype(dtype.newbyteorder("="))
+    return columns

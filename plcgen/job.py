@@ -1,0 +1,161 @@
+"""A job: what the user asks for, validated, frozen, and able to point at the line that asked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from plcgen.errors import JobError
+from plcgen.jobfile import METHODS, UNITS_PER_METRE, Blocks, Context, Envelope, HoistFile, HoistLimits, json_schema
+from plcgen.jobproblems import Problem, problems_of
+from plcgen.targets import TARGETS, Target
+from plcgen.tomlfile import KeyPath, TomlFile, parse_toml, read_toml
+
+__all__ = ["Blocks", "Envelope", "HoistLimits", "Job", "job_schema", "parse_job", "read_job"]
+
+
+@dataclass(frozen=True)
+class Job:
+    """A valid job. Lengths, speeds and so on are in `length_unit`, `sample_period` is in seconds.
+
+    `file` is the base name of the job file with all but plain ASCII characters replaced: it may stand in a comment.
+    `sha256` is of the file's UTF-8 text with LF line ends.
+    """
+
+    name: str
+    method: str
+    targets: tuple[str, ...]
+    length_unit: str
+    sample_period: float
+    limits: HoistLimits
+    blocks: Blocks
+    file: str
+    sha256: str
+    text: TomlFile = field(repr=False, compare=False)
+
+    @property
+    def hoist(self) -> HoistLimits:
+        """Limits of the method `hoist`."""
+        return self.limits
+
+    def error(self, key: str, message: str) -> JobError:
+        """An error that points at the value of a key such as `hoist.travel`; at its table when the key is defaulted."""
+        return JobError(message, self.text.value_location(_path(key)))
+
+
+def read_job(path: Path) -> Job:
+    """Read a job file. Raises JobError with the place of what is wrong."""
+    return _job(read_toml(path))
+
+
+def parse_job(text: str, name: str) -> Job:
+    """See `read_job`; `name` is what errors call the file."""
+    return _job(parse_toml(text, name))
+
+
+def job_schema() -> dict[str, Any]:
+    """JSON Schema of the job file, for editors: `#:schema job.schema.json` in its first line."""
+    return json_schema(METHODS.values())
+
+
+def _job(text: TomlFile) -> Job:
+    model = _model(text.data)
+    try:
+        keys = model.model_validate(text.data, context=_context(text.data))
+    except ValidationError as error:
+        raise _first(problems_of(error, model, text)) from error
+    job = Job(
+        name=keys.name,
+        method=keys.method,
+        targets=keys.targets,
+        length_unit=keys.length_unit,
+        sample_period=keys.sample_period,
+        limits=keys.limits,
+        blocks=keys.blocks,
+        file=re.sub(r"[^A-Za-z0-9._ -]", "_", Path(text.name).name),
+        sha256=text.sha256,
+        text=text,
+    )
+    conflicts = [Problem.at_value(text, _path(key), words) for key, words in _conflicts(job)]
+    if conflicts:
+        raise _first(conflicts)
+    return job
+
+
+def _model(data: dict[str, Any]) -> type[HoistFile]:
+    """The model of the job's method. Without a usable one, of the first method whose table is there."""
+    named = [name for name in METHODS if data.get("method") == name]
+    present = [name for name in METHODS if name in data]
+    return METHODS[[*named, *present, *METHODS][0]]
+
+
+def _context(data: dict[str, Any]) -> Context:
+    unit, name = data.get("length_unit"), data.get("name")
+    known = isinstance(unit, str) and unit in UNITS_PER_METRE
+    return Context(unit if known else None, name if isinstance(name, str) else None)
+
+
+def _first(problems: list[Problem]) -> JobError:
+    """The first problem of the file as an error that says how many there are."""
+    first, *others = sorted(problems, key=lambda problem: (problem.location.line, problem.location.column))
+    more = f" ({len(others)} more below)" if others else ""
+    return JobError(first.message + more, first.location)
+
+
+def _conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    """Keys that are right alone and wrong together, each with the end of the sentence."""
+    yield from _hoist_conflicts(job.hoist)
+    yield from _target_conflicts(job)
+    yield from _symbol_conflicts(job)
+
+
+def _hoist_conflicts(hoist: HoistLimits) -> Iterator[tuple[str, str]]:
+    if hoist.creep_velocity >= hoist.max_velocity:
+        yield "hoist.creep_velocity", f"is not below max_velocity = {hoist.max_velocity:g}; write less"
+    if hoist.creep_acceleration > hoist.acceleration:
+        limit = f"{hoist.acceleration:g}"
+        yield "hoist.creep_acceleration", f"is above acceleration = {limit}; write at most {limit}"
+
+
+def _target_conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    if not job.targets:
+        yield "targets", f'names no target; write one or more, such as ["{next(iter(TARGETS))}"]'
+    for index, name in enumerate(job.targets):
+        if name in job.targets[:index]:
+            yield f"targets[{index}]", "is listed twice; keep one"
+        if job.method not in TARGETS[name].methods:
+            yield f"targets[{index}]", f'does not serve the method "{job.method}"'
+
+
+def _symbol_conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    """Names of blocks that are too long for a target, or equal to a compiler, which ignores case."""
+    blocks = job.blocks
+    base = "blocks.fb_name" if job.text.spelling(("blocks", "fb_name")) else "name"
+    data = "blocks.db_name" if job.text.spelling(("blocks", "db_name")) else base
+    tightest = min((TARGETS[name] for name in job.targets), key=lambda target: target.max_identifier, default=None)
+    if tightest:
+        yield from _too_long(base, blocks.fb_name, blocks.velocity_name, tightest)
+        if base != "name":
+            yield from _too_long("name", job.name, job.name, tightest)
+        if data != base:
+            yield from _too_long(data, blocks.db_name, blocks.db_name, tightest)
+    others = (blocks.fb_name, blocks.velocity_name, blocks.travel_name)
+    same = [name for name in others if name.upper() == blocks.db_name.upper()]
+    if same:
+        yield data, f"names another block too, {same[0]}; write another name"
+
+
+def _too_long(key: str, name: str, longest: str, target: Target) -> Iterator[tuple[str, str]]:
+    excess = len(longest) - target.max_identifier
+    if excess > 0:
+        derived = f", for {longest} comes of it" if longest != name else ""
+        yield key, f"has {len(name)} characters; {target.name} takes {len(name) - excess}{derived}"
+
+
+def _path(key: str) -> KeyPath:
+    return tuple(int(part) if part.isdigit() else part for part in re.findall(r"[^.\[\]]+", key))

@@ -1,0 +1,332 @@
+"""What a job file may say: every key with its unit, range, default and meaning.
+
+Validators end their sentence only ("is out of range; write ..."): the reader of the file puts key, value and place
+in front of it. Ranges and defaults that carry a length are given in metres and follow the job's `length_unit`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Annotated, Any, NoReturn
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    TypeAdapter,
+    ValidationInfo,
+    model_validator,
+)
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from plcgen.names import name_fault, nearest, one_of
+from plcgen.targets import TARGETS
+
+UNITS_PER_METRE = {"m": 1, "cm": 100, "mm": 1000}
+HIGHEST_CODE_BLOCK = 7999  # FB and FC of the S7-300 CPUs in use; the first generation ends earlier
+HIGHEST_DATA_BLOCK = 16000
+VELOCITY_SUFFIX, TRAVEL_SUFFIX, DATA_SUFFIX = "_Velocity", "_Travel", "_DB"
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the keys of the file depend on: None where the file gives no usable value."""
+
+    length_unit: str | None
+    name: str | None
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A finite number within limits. A unit that begins with m is a length in it, and scales."""
+
+    unit: str
+    low: float
+    high: float
+
+    def scale(self, length_unit: str | None) -> int:
+        return UNITS_PER_METRE[length_unit] if length_unit and self.unit.startswith("m") else 1
+
+    def unit_in(self, length_unit: str | None) -> str:
+        return self.unit.replace("m", length_unit or "m", 1) if self.unit.startswith("m") else self.unit
+
+    def validate(self, value: Any, info: ValidationInfo) -> float:
+        unit = info.context.length_unit if info.context else "m"
+        scale = self.scale(unit)
+        low, high = self.low * scale, self.high * scale
+        asked = f"{plain(low)} to {plain(high)} {self.unit_in(unit)}".rstrip()
+        if not isinstance(value, (int, float)) or isinstance(value, bool):
+            quotes = " without quotes" if isinstance(value, str) else ""
+            refuse(f"is {kind_of(value)}; write a number{quotes}, {asked}")
+        if isinstance(value, float) and not math.isfinite(value):
+            refuse(f"is no finite number; write {asked}")
+        if value <= 0 < low:
+            refuse(f"is not positive; write {asked}")
+        if not low <= value <= high:
+            refuse(f"is out of range; write {asked}")
+        return float(value)
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(self.validate)
+
+    def __get_pydantic_json_schema__(self, _schema: CoreSchema, _handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        largest = max(UNITS_PER_METRE, key=lambda unit: self.scale(unit))
+        maximum = self.high * self.scale(largest)
+        return {"type": "number", "minimum": self.low, "maximum": maximum, "unit": self.unit}
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A whole number within limits."""
+
+    low: int
+    high: int
+
+    def validate(self, value: Any) -> int:
+        if not isinstance(value, int) or isinstance(value, bool):
+            refuse(f"is {kind_of(value)}; write a whole number, {self.low} to {self.high}")
+        if not self.low <= value <= self.high:
+            refuse(f"is out of range; write {self.low} to {self.high}")
+        return value
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.validate)
+
+    def __get_pydantic_json_schema__(self, _schema: CoreSchema, _handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of a few words."""
+
+    words: tuple[str, ...]
+
+    def validate(self, value: Any) -> str:
+        if not isinstance(value, str):
+            refuse(f"is {kind_of(value)}; write {one_of(self.words)}")
+        if value not in self.words:
+            near = nearest(value, self.words)
+            refuse(f"is unknown; write {one_of((near,) if near else self.words)}")
+        return value
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.validate)
+
+    def __get_pydantic_json_schema__(self, _schema: CoreSchema, _handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"type": "string", "enum": list(self.words)}
+
+
+class NameRule:
+    """A name that any of the targets takes; its length is judged later, when the targets are known."""
+
+    @staticmethod
+    def validate(value: Any) -> str:
+        if not isinstance(value, str):
+            refuse(f"is {kind_of(value)}; write a name in quotes")
+        fault = name_fault(value)
+        if fault:
+            refuse(fault)
+        return str(value)
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.validate)
+
+    def __get_pydantic_json_schema__(self, _schema: CoreSchema, _handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        longest = max(target.max_identifier for target in TARGETS.values())
+        return {"type": "string", "pattern": "^[A-Za-z](_?[A-Za-z0-9])*$", "maxLength": longest}
+
+
+def whole_milliseconds(seconds: float) -> float:
+    """A cyclic interrupt is set in whole milliseconds."""
+    count = seconds * 1000
+    if abs(count - round(count)) > 1e-6:
+        below = math.floor(count)
+        refuse(f"is no whole number of milliseconds; write {below / 1000:.3f} or {(below + 1) / 1000:.3f}")
+    return round(count) / 1000
+
+
+Name = Annotated[str, NameRule()]
+Factor = Annotated[float, Quantity("", 1.0, 3.0)]
+Acceleration = Annotated[float, Quantity("m/s2", 0.001, 100.0)]
+
+
+class Table(BaseModel):
+    """One table of the file. Unknown keys are refused; defaults of lengths are scaled to the length unit."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _scale_defaults(cls, given: Any, info: ValidationInfo) -> Any:
+        if not isinstance(given, dict) or not info.context:
+            return given
+        return {**cls._scaled_defaults(info.context.length_unit), **given}
+
+    @classmethod
+    def _scaled_defaults(cls, length_unit: str | None) -> dict[str, float]:
+        return {
+            key: field.default * rule.scale(length_unit)
+            for key, field in cls.model_fields.items()
+            for rule in field.metadata
+            if isinstance(rule, Quantity) and isinstance(field.default, float)
+        }
+
+
+class Envelope(Table):
+    """Limits of the protection: the curve that trips, the curve that clamps, and what they assume of the brake."""
+
+    overspeed_factor: Factor = Field(1.15, description="speed that trips, as a multiple of the planned speed")
+    tracking_factor: Factor = Field(1.10, description="speed that the setpoint is clamped to, as a multiple")
+    tracking_margin: Annotated[float, Quantity("m/s", 0.0, 10.0)] = Field(
+        0.3, description="speed added to the clamp, so that it leaves room near standstill"
+    )
+    brake_deceleration: Acceleration = Field(1.5, description="deceleration of the safety brake")
+    reaction_time: Annotated[float, Quantity("s", 0.0, 10.0)] = Field(
+        0.5, description="from the trip to the brake's grip"
+    )
+    end_velocity: Annotated[float, Quantity("m/s", 0.001, 100.0)] = Field(
+        2.0, description="highest speed at which the end of the shaft may be reached"
+    )
+    overwind: Annotated[float, Quantity("m", 0.001, 100.0)] = Field(
+        0.5, description="travel beyond a stop at which the position is an error"
+    )
+
+
+class HoistLimits(Table):
+    """Limits of a hoist between two stops: creep out, accelerate, run, decelerate, creep in, stop."""
+
+    travel: Annotated[float, Quantity("m", 0.001, 1e5)] = Field(description="from stop to stop", examples=[600.0])
+    max_velocity: Annotated[float, Quantity("m/s", 0.001, 100.0)] = Field(description="highest speed", examples=[12.0])
+    acceleration: Acceleration = Field(description="highest acceleration", examples=[0.75])
+    deceleration: Acceleration = Field(
+        default_factory=lambda given: given["acceleration"], description="highest deceleration; default acceleration"
+    )
+    jerk: Annotated[float, Quantity("m/s3", 0.001, 1e4)] = Field(description="highest jerk", examples=[0.5])
+    creep_velocity: Annotated[float, Quantity("m/s", 0.0001, 100.0)] = Field(
+        description="speed near the stops, below max_velocity", examples=[0.5]
+    )
+    creep_acceleration: Acceleration = Field(
+        default_factory=lambda given: given["acceleration"],
+        description="of the ramps between standstill and creep speed; default and at most acceleration",
+    )
+    creep_out: Annotated[float, Quantity("m", 0.0, 1e4)] = Field(
+        description="travel at creep speed before accelerating; may be 0", examples=[1.5]
+    )
+    creep_in: Annotated[float, Quantity("m", 0.001, 1e4)] = Field(
+        description="travel at creep speed before the stop ramp; takes up what the drive lags behind", examples=[2.5]
+    )
+    envelope: Envelope = Field(default={}, validate_default=True, description="protection; optional")
+
+
+class Blocks(Table):
+    """Numbers and names of the blocks that are emitted."""
+
+    fb: Annotated[int, Whole(1, HIGHEST_CODE_BLOCK)] = Field(100, description="number of the function block")
+    db: Annotated[int, Whole(1, HIGHEST_DATA_BLOCK)] = Field(100, description="number of its instance data block")
+    fc: Annotated[int, Whole(1, HIGHEST_CODE_BLOCK - 1)] = Field(
+        100, description="number of the first of two functions; the second takes the next number"
+    )
+    fb_name: Name = Field(default_factory=str, description="name of the function block; default the job's name")
+    db_name: Name = Field(
+        default_factory=lambda given: given["fb_name"] + DATA_SUFFIX,
+        description=f"name of the instance data block; default fb_name{DATA_SUFFIX}",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _named_after_the_job(cls, given: Any, info: ValidationInfo) -> Any:
+        name = info.context and info.context.name
+        return {"fb_name": name, **given} if name and isinstance(given, dict) else given
+
+    @property
+    def velocity_fc(self) -> int:
+        return self.fc
+
+    @property
+    def travel_fc(self) -> int:
+        return self.fc + 1
+
+    @property
+    def velocity_name(self) -> str:
+        return self.fb_name + VELOCITY_SUFFIX
+
+    @property
+    def travel_name(self) -> str:
+        return self.fb_name + TRAVEL_SUFFIX
+
+
+class JobFile(Table):
+    """The keys that every job has. Each method adds its own table."""
+
+    name: Name = Field(description="names the function block and the files", examples=["MainShaft"])
+    method: Annotated[str, Choice(("hoist",))] = Field(description="how the motion is planned", examples=["hoist"])
+    targets: tuple[Annotated[str, Choice(tuple(TARGETS))], ...] = Field(
+        description="controllers and languages to write source for", examples=[["s7-300-scl", "tia-scl"]]
+    )
+    length_unit: Annotated[str, Choice(tuple(UNITS_PER_METRE))] = Field(
+        description="length unit of all other keys, and of the encoder", examples=["m"]
+    )
+    sample_period: Annotated[float, Quantity("s", 0.001, 1.0), AfterValidator(whole_milliseconds)] = Field(
+        description="period of the cyclic interrupt that calls the block, in whole milliseconds", examples=[0.010]
+    )
+    blocks: Blocks = Field(default={}, validate_default=True, description="numbers and names of blocks; optional")
+
+
+class HoistFile(JobFile):
+    """A job of the method `hoist`."""
+
+    hoist: HoistLimits = Field(description="limits of the motion")
+
+    @property
+    def limits(self) -> HoistLimits:
+        return self.hoist
+
+
+METHODS = {"hoist": HoistFile}
+
+
+def kind_of(value: Any) -> str:
+    """What a TOML value is, in words."""
+    kinds: tuple[tuple[type, str], ...] = (
+        (bool, "a boolean"),
+        (int, "an integer"),
+        (float, "a decimal number"),
+        (str, "a text"),
+        (list, "a list"),
+        (dict, "a table"),
+    )
+    return next((words for kind, words in kinds if isinstance(value, kind)), "a date or time")
+
+
+def plain(number: float) -> str:
+    """A limit as a user would write it: 0.001, 100000, without an exponent."""
+    return f"{number:.9f}".rstrip("0").rstrip(".")
+
+
+def refuse(message: str) -> NoReturn:
+    raise PydanticCustomError("job", "{message}", {"message": message})
+
+
+def json_schema(methods: Iterable[type[JobFile]]) -> dict[str, Any]:
+    """JSON Schema of the job file; a method each. Descriptions name the unit."""
+    union: Any = None
+    for model in methods:
+        union = model if union is None else union | model
+    schema = TypeAdapter(union).json_schema()
+    for table in (schema, *schema.get("$defs", {}).values()):
+        for key in table.get("properties", {}).values():
+            _name_unit(key)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "title": "plcgen job"}
+
+
+def _name_unit(key: dict[str, Any]) -> None:
+    unit = key.pop("unit", "")
+    key.pop("title", None)
+    if unit:
+        note = "; here and in the default m stands for length_unit" if unit.startswith("m") else ""
+        key["description"] = f"{key['description']} ({unit}{note})"

@@ -1,0 +1,68 @@
+"""PLC source files: their text, and the place of every span in it."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+from plcgen.errors import Location, SourceError
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
+
+class Span(NamedTuple):
+    """Half-open range of character offsets in a SourceText."""
+
+    start: int
+    end: int
+
+    def to(self, other: Span) -> Span:
+        return Span(self.start, other.end)
+
+
+@dataclass(frozen=True)
+class SourceText:
+    """Decoded text of one source file. `raw` keeps the bytes for rules about encoding and line ends."""
+
+    name: str
+    text: str
+    raw: bytes = field(default=b"", repr=False)
+    encoding: str = "utf-8"
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        starts = [0]
+        starts.extend(offset + 1 for offset, character in enumerate(self.text) if character == "\n")
+        return starts
+
+    def location(self, span: Span) -> Location:
+        row = bisect_right(self._line_starts, span.start) - 1
+        start = self._line_starts[row]
+        line = self.text[start:].split("\n", 1)[0].rstrip("\r")
+        return Location(self.name, row + 1, span.start - start + 1, line, max(1, span.end - span.start))
+
+    def error(self, message: str, span: Span) -> SourceError:
+        return SourceError(message, self.location(span))
+
+
+def read_source(path: Path) -> SourceText:
+    """Read a source file: UTF-8 with or without a byte order mark, else 8-bit with one character a byte.
+
+    Latin-1 keeps any code page (1251, 1252, GBK) intact byte by byte; only comments and strings hold such bytes.
+    """
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise SourceError(f"{path}: cannot be read: {error.strerror}") from error
+    return decode_source(str(path), raw)
+
+
+def decode_source(name: str, raw: bytes) -> SourceText:
+    """See `read_source`."""
+    try:
+        return SourceText(name, raw.decode("utf-8-sig"), raw, "utf-8")
+    except UnicodeDecodeError:
+        return SourceText(name, raw.decode("latin-1"), raw, "8-bit")

@@ -1,0 +1,65 @@
+"""The controllers and languages that source is written for: one row of facts for each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plcgen.errors import PlcgenError
+from plcgen.names import nearest, one_of
+
+
+@dataclass(frozen=True)
+class Target:
+    """One controller and language: where its templates are, and how its files are spelled on disk."""
+
+    name: str
+    title: str
+    folder: str  # below templates/
+    dialect: str  # name of the language's dialect
+    suffix: str  # of a source file
+    encoding: str  # Python's name of the codec
+    newline: str
+    max_identifier: int  # characters in the name of a block or variable
+    methods: frozenset[str]
+
+
+TARGETS = {
+    row.name: row
+    for row in (
+        Target(
+            name="s7-300-scl",
+            title="STEP 7 V5.x, SCL source for S7-300 and S7-400",
+            folder="s7-300-scl",
+            dialect="classic",
+            suffix=".scl",
+            encoding="ascii",
+            newline="\r\n",
+            max_identifier=24,
+            methods=frozenset({"hoist"}),
+        ),
+        Target(
+            name="tia-scl",
+            title="TIA Portal, external SCL source for S7-300, S7-1200 and S7-1500",
+            folder="tia-scl",
+            dialect="tia",
+            suffix=".scl",
+            encoding="utf-8-sig",
+            newline="\r\n",
+            max_identifier=128,
+            methods=frozenset({"hoist"}),
+        ),
+    )
+}
+
+
+def target(name: str) -> Target:
+    """The row of that name. Raises PlcgenError with the nearest known name."""
+    if name in TARGETS:
+        return TARGETS[name]
+    raise PlcgenError(f'unknown target "{name}"; write {one_of(choices_near(name, TARGETS))}')
+
+
+def choices_near(word: str, known: dict[str, Target]) -> tuple[str, ...]:
+    """The one known name that `word` resembles, else all of them."""
+    near = nearest(word, known)
+    return (near,) if near else tuple(known)

@@ -1,0 +1,70 @@
+"""Trajectory: sampled columns of equal length, and their CSV form."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Column = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Named columns, one row a sample; float64, float32, int or bool arrays of one length."""
+
+    columns: Mapping[str, Column]
+
+    def __post_init__(self) -> None:
+        lengths = {name: len(column) for name, column in self.columns.items()}
+        if len(set(lengths.values())) > 1:
+            raise ValueError(f"columns of different length: {lengths}")
+
+    def __getitem__(self, name: str) -> Column:
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values()), ()))
+
+    def rows(self, selection: Column) -> Trajectory:
+        """The rows that an index or boolean array selects."""
+        return Trajectory({name: column[selection] for name, column in self.columns.items()})
+
+    def to_csv(self) -> str:
+        """CSV with a header line and LF. Numbers are the shortest text that reads back to the same value."""
+        output = io.StringIO()
+        writer = csv.writer(output, lineterminator="\n")
+        writer.writerow(self.columns)
+        writer.writerows(zip(*(_spell(column) for column in self.columns.values()), strict=True))
+        return output.getvalue()
+
+    @classmethod
+    def from_csv(cls, text: str) -> Trajectory:
+        """Read what `to_csv` wrote; every column comes back as float64. Raises ValueError on anything else."""
+        rows = list(csv.reader(io.StringIO(text)))
+        if not rows or not rows[0]:
+            raise ValueError("a trajectory needs a header line")
+        header, body = rows[0], rows[1:]
+        if len(set(header)) < len(header):
+            raise ValueError(f"columns of the same name: {header}")
+        for number, row in enumerate(body, start=2):
+            if len(row) != len(header):
+                raise ValueError(f"row {number} has {len(row)} cells; the header has {len(header)}")
+        values = np.array([[float(cell) for cell in row] for row in body], dtype=np.float64).reshape(-1, len(header))
+        return cls({name: values[:, index] for index, name in enumerate(header)})
+
+    def sha256(self) -> str:
+        """Digest of the CSV text: equal exactly when every value of every row is equal."""
+        return hashlib.sha256(self.to_csv().encode("ascii")).hexdigest()
+
+
+def _spell(column: Column) -> list[str]:
+    if column.dtype.kind == "f":
+        return [np.format_float_positional(value, unique=True, trim="-") for value in column]
+    return [str(int(value)) for value in column]

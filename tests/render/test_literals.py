@@ -1,0 +1,97 @@
+"""REAL literals: the nearest 32-bit value, the shortest spelling, and a point in every one of them."""
+
+from __future__ import annotations
+
+import re
+import struct
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plcgen.render.literals import real_literal
+
+# What both dialects take: digits on both sides of the point, an exponent with a sign.
+REAL = re.compile(r"-?[0-9]+\.[0-9]+(E[+-][0-9]{2})?")
+SMALLEST, LARGEST = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0.0"),
+        (-0.0, "-0.0"),
+        (1.0, "1.0"),
+        (12, "12.0"),
+        (-0.5, "-0.5"),
+        (0.1, "0.1"),
+        (1 / 3, "0.33333334"),
+        (105.20833333333333, "105.208336"),
+        (600000.0, "600000.0"),
+        (0.0001, "0.0001"),
+        (0.000099, "9.9E-05"),
+        (1.5e-7, "1.5E-07"),
+        (1e-10, "1.0E-10"),
+        (9999999.0, "9999999.0"),
+        (1e7, "1.0E+07"),
+        (16777217.0, "1.6777216E+07"),
+        (3e10, "3.0E+10"),
+        (LARGEST, "3.4028235E+38"),
+        (SMALLEST, "1.1754944E-38"),
+    ],
+)
+def test_spelling(value: float, text: str) -> None:
+    assert real_literal(value) == text
+
+
+@pytest.mark.parametrize(
+    "value", [float("nan"), float("inf"), float("-inf"), 3.5e38, -1e300, 1e-39, -1e-40, 1e-50, 5e-324]
+)
+def test_values_that_real_cannot_hold(value: float) -> None:
+    with pytest.raises(ValueError, match=re.escape(f"{value!r} is out of the range of REAL")):
+        real_literal(value)
+
+
+def check(value: float) -> None:
+    """The text names the nearest single, whether it is read exactly or by way of a double."""
+    text = real_literal(value)
+    single = np.float32(value)
+    assert REAL.fullmatch(text), text
+    assert struct.pack("f", np.float32(float(text))) == struct.pack("f", single), text
+    exact = abs(Fraction(text) - Fraction(float(single)))
+    neighbours = (float(np.nextafter(single, np.float32(side))) for side in (-np.inf, np.inf))
+    steps = [abs(Fraction(near) - Fraction(float(single))) for near in neighbours if np.isfinite(near)]
+    assert exact <= min(steps) / 2, text
+
+
+@settings(max_examples=1000, deadline=None)
+@given(st.floats(SMALLEST, LARGEST) | st.floats(1e-6, 1e6), st.booleans())
+def test_round_trip(value: float, negative: bool) -> None:
+    check(-value if negative else value)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_round_trip_of_any_bits(seed: int) -> None:
+    """Singles with random bits reach every exponent alike."""
+    bits = np.random.default_rng(seed).integers(0, 2**32, 2000, dtype=np.uint32)
+    singles = bits.view(np.float32)
+    for single in singles[np.isfinite(singles) & (np.abs(singles) >= SMALLEST)]:
+        check(float(single))
+
+
+@pytest.mark.parametrize("power", range(-126, 128))
+def test_powers_of_two_and_their_neighbours(power: int) -> None:
+    single = np.float32(2.0**power)
+    for value in (single, np.nextafter(single, np.float32(np.inf)), -single):
+        check(float(value))
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.floats(SMALLEST, LARGEST))
+def test_no_shorter_spelling_names_the_same_single(value: float) -> None:
+    digits = real_literal(value).split("E")[0].replace(".", "").strip("0")
+    if len(digits) > 1:
+        shorter = f"{float(np.float32(value)):.{len(digits) - 2}e}"
+        assert np.float32(float(shorter)) != np.float32(value)
