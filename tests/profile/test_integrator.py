@@ -11,6 +11,10 @@ from plcgen.profile.reference import Phase
 UP_AND_DOWN = [Phase(1.0, jerk, 1) for jerk in (2.0, -2.0, -2.0, 2.0)]
 
 
+def random_phases(random: np.random.Generator, count: int, longest: float) -> list[Phase]:
+    return [Phase(float(random.uniform(0.0, longest)), float(random.uniform(-5.0, 5.0)), 1) for _ in range(count)]
+
+
 def test_seven_numbers_by_hand() -> None:
     proof = integrate(UP_AND_DOWN)
     assert (proof.duration, proof.highest_jerk) == (4.0, 2.0)
@@ -24,7 +28,7 @@ def test_seven_numbers_by_hand() -> None:
 def test_steps_do_not_matter(seed: int) -> None:
     """The rules are exact for constant jerk: one step a phase gives what a thousand give."""
     random = np.random.default_rng(seed)
-    phases = [Phase(*random.uniform([0.0, -5.0], [10.0, 5.0]), leg=1) for _ in range(20)]
+    phases = random_phases(random, 20, 10.0)
     coarse, fine = integrate(phases, 1), integrate(phases, 1000)
     assert coarse.travel == pytest.approx(fine.travel, rel=1e-10)
     assert coarse.end_velocity == pytest.approx(fine.end_velocity, rel=1e-9)
@@ -35,7 +39,7 @@ def test_steps_do_not_matter(seed: int) -> None:
 def test_end_state_is_the_exact_polynomial(seed: int) -> None:
     """Against repeated antiderivatives of one phase after another."""
     random = np.random.default_rng(seed)
-    phases = [Phase(*random.uniform([0.0, -5.0], [3.0, 5.0]), leg=1) for _ in range(10)]
+    phases = random_phases(random, 10, 3.0)
     x = v = a = 0.0
     for phase in phases:
         state = np.polynomial.Polynomial([x, v, a / 2, phase.jerk / 6])

@@ -14,7 +14,7 @@ from plcgen.plc.scl.lowering_values import Untyped, Value, combine, expect, lite
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.source import SourceText
 from plcgen.plc.suggest import did_you_mean
-from plcgen.plc.types import DINT, Array, Elementary, String, Structure, Type, elementary
+from plcgen.plc.types import BYTE_BITS, DINT, Array, Elementary, String, Structure, Type, elementary
 
 LONGEST_STRING = 254
 LARGEST_ARRAY = 1 << 24  # bytes

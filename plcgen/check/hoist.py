@@ -1,0 +1,288 @@
+"""Verification of a hoist block: it is executed in every situation the job can bring, and each output is compared."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from plcgen.check.hoist_bench import Bench, Run, full_trip, interrupted_trip, stop_places, turning_trip
+from plcgen.check.hoist_cases import case_checks
+from plcgen.check.hoist_expectation import (
+    LAW_ERROR,
+    UNIT_ROUNDOFF,
+    Expected,
+    Segment,
+    expect_stop,
+    expect_trip,
+    peak_acceleration,
+    travel_resolution,
+)
+from plcgen.check.hoist_model import STANDSTILL, HoistModel, Samples
+from plcgen.check.rig import Clock, Encoder
+from plcgen.check.verdict import Check, TargetVerdict
+from plcgen.plc.core import Program
+from plcgen.trajectory import Trajectory
+
+JITTER = 0.1
+FILL_PATTERN = 0x7F
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is verified: a program, its FB and instance DB by name, and the model to hold it against."""
+
+    program: Program
+    block: str
+    instance: str
+    model: HoistModel
+
+    @property
+    def bench(self) -> Bench:
+        return Bench(self.program, self.block, self.instance, self.model)
+
+
+def verify_hoist(
+    subject: Subject, progress: Callable[[str], None] | None = None, fail_fast: bool = False
+) -> TargetVerdict:
+    """All checks in order of cost; with `fail_fast` up to the first that fails."""
+    checks: list[Check] = []
+    for check in _checks(subject.bench, progress or (lambda _text: None)):
+        checks.append(check)
+        if fail_fast and not check.ok:
+            break
+    return TargetVerdict(tuple(checks))
+
+
+def nominal_trace(subject: Subject) -> Trajectory:
+    """Inputs and outputs of the trip upwards with a perfect encoder."""
+    run = full_trip(subject.bench, "up", up=True)
+    columns = [name for name in run.trace.columns if not name.startswith("stat")]
+    return Trajectory({name: run.trace[name] for name in columns})
+
+
+def _checks(bench: Bench, progress: Callable[[str], None]) -> Iterator[Check]:
+    progress("inputs, commands, envelope")
+    yield from case_checks(bench)
+    runs = []
+    for make in _runs(bench):
+        run = make()
+        progress(run.name)
+        runs.append(run)
+        # One run at a time, so that a fault shows early.
+        yield from (check for check in _run_checks(bench.model, [run]) if not check.ok)
+    yield from _run_checks(bench.model, runs)
+    yield _isolation(bench)
+
+
+def _runs(bench: Bench) -> Iterator[Callable[[], Run]]:
+    model = bench.model
+    yield lambda: full_trip(bench, "up, perfect encoder", up=True)
+    yield lambda: full_trip(bench, "down, perfect encoder", up=False)
+    yield lambda: turning_trip(bench, "up and back")
+    for up, way in ((True, "up"), (False, "down")):
+        places = stop_places(model)
+        yield lambda up=up, way=way: interrupted_trip(bench, f"{way}, stop and resume", up, places)
+    slow = Clock(min(1.5 * model.sample_period, model.shortest_jerk_time / 10))
+    yield lambda: full_trip(bench, "up, longer cycle", up=True, clock=slow)
+    shifted = (-0.05 * model.limits.travel, 1.1 * model.limits.travel)
+    yield lambda: full_trip(bench, "down, other stops", up=False, stops=shifted)
+    encoders = {"": Encoder(), ", 1 mm steps": Encoder(model.millimetre), ", one scan late": Encoder(delay=1)}
+    clocks = {"": Clock(model.sample_period), ", 10 % jitter": Clock(model.sample_period, JITTER)}
+    for up, way in ((True, "up"), (False, "down")):
+        for measured, encoder in encoders.items():
+            for timed, clock in clocks.items():
+                if measured or timed:
+                    name = way + measured + timed
+                    yield lambda up=up, name=name, e=encoder, c=clock: full_trip(bench, name, up, e, c)
+
+
+def _run_checks(model: HoistModel, runs: list[Run]) -> Iterator[Check]:
+    """Figures over all runs; each is the one that comes nearest to its bound."""
+    speed, rate, snap = f"{model.unit}/s", f"{model.unit}/s2", f"{model.unit}/s3"
+    trips = [(run, segment, expect_trip(model, segment)) for run in runs for segment in run.segments(run.trips)]
+    stops = [(run, segment, expect_stop(model, segment)) for run in runs for segment in run.segments(run.stops)]
+    parts = trips + stops
+    yield _count("runs_completed", [not run.complete for run in runs])
+    yield _count("arithmetic_faults", [len(run.faults) for run in runs])
+    yield _law_error(trips)
+    yield _nearest("velocity_deviation", speed, [_deviation(s, "velocitySetpoint", e.velocity, e.velocity_bound) for _, s, e in parts])
+    yield _nearest("acceleration_deviation", rate, [_deviation(s, "acceleration", e.acceleration, e.acceleration_bound) for _, s, e in parts])
+    yield _nearest("distance_deviation", model.unit, [_distance(model, s) for _, s, _ in parts])
+    yield _nearest("envelope_deviation", speed, [_envelope(model, s) for _, s, _ in parts])
+    yield _count("wrong_phases", [_wrong_phases(s, e) for _, s, e in parts])
+    yield _count("wrong_status", [_wrong_status(s, e, i) for parts_, i in ((trips, 0x7001), (stops, 0x7003)) for _, s, e in parts_])
+    yield _count("wrong_flags", [_wrong_flags(run) for run in runs])
+    yield _nearest("limited_setpoint_deviation", speed, [_limited(run) for run in runs])
+    yield _nearest("velocity_limit", speed, [_velocity_limit(model, run) for run in runs])
+    yield _nearest("acceleration_limit", rate, [_acceleration_limit(model, run) for run in runs])
+    yield _nearest("jerk_limit", snap, [_jerk_limit(model, run) for run in runs])
+    yield _nearest("setpoint_step", speed, [_setpoint_step(model, run) for run in runs])
+    yield _envelope_margin(speed, runs)
+    yield _nearest("duration_deviation", "s", [_duration(model, run) for run in runs if len(run.trips) == 1])
+    yield _nearest("stop_error", model.unit, [_stop_error(model, run) for run in runs])
+
+
+def _count(name: str, values: list[int] | list[bool]) -> Check:
+    return Check(name, float(sum(values)), 0.0, "1")
+
+
+def _nearest(name: str, unit: str, figures: list[tuple[float, float]]) -> Check:
+    """Of pairs of value and bound, the one with the largest ratio; NaN counts as the largest."""
+    if not figures:
+        return Check(name, 0.0, 0.0, unit)
+    value, bound = max(figures, key=lambda pair: np.inf if np.isnan(pair[0]) else pair[0] / max(pair[1], 1e-300))
+    return Check(name, value, bound, unit)
+
+
+def _worst(deviation: Samples, bound: Samples | float) -> tuple[float, float]:
+    """The row of an array that comes nearest to its bound."""
+    bounds = np.broadcast_to(bound, deviation.shape)
+    row = int(np.argmax(np.where(np.isnan(deviation), np.inf, deviation / np.maximum(bounds, 1e-300))))
+    return float(deviation[row]), float(bounds[row])
+
+
+def _deviation(segment: Segment, column: str, expected: Samples, bound: Samples | float) -> tuple[float, float]:
+    return _worst(np.abs(segment.sign * segment.column(column) - expected), bound)
+
+
+def _law_error(trips: list[tuple[Run, Segment, Expected]]) -> Check:
+    """Worst relative error of v(S) in 32 bits against 64 bits, on trips from stop to stop."""
+    worst = 0.0
+    for run, segment, expected in trips:
+        rows = expected.is_travel_law & (expected.velocity > 1e-3)
+        if run.name.endswith("perfect encoder") and rows.any():
+            error = np.abs(segment.sign * segment.column("velocitySetpoint") / np.where(rows, expected.velocity, 1.0) - 1.0)
+            worst = max(worst, float(error[rows].max()))
+    return Check("law_error", worst, LAW_ERROR, "1")
+
+
+def _distance(model: HoistModel, segment: Segment) -> tuple[float, float]:
+    return _worst(np.abs(segment.column("distanceToGo") - segment.to_go), travel_resolution(model, segment))
+
+
+def _envelope(model: HoistModel, segment: Segment) -> tuple[float, float]:
+    behind = segment.column("lowerStop" if segment.up else "upperStop")
+    expected = model.envelope(segment.sign * (segment.column("actualTravel") - behind), segment.to_go)
+    return _worst(np.abs(segment.column("envelopeVelocity") - expected), envelope_bound(model, segment, expected))
+
+
+def envelope_bound(model: HoistModel, segment: Segment, expected: Samples) -> Samples:
+    """The error of the law, scaled like it; of the root, with the reaction speed that is taken off again; of travel."""
+    guard = model.limits.envelope
+    reaction = guard.brake_deceleration * guard.reaction_time
+    scale = max(1.0, guard.tracking_factor)
+    return LAW_ERROR * (scale * expected + 2 * reaction) + scale * model.steepest_gain * travel_resolution(model, segment)
+
+
+def _wrong_phases(segment: Segment, expected: Expected) -> int:
+    phase = segment.column("phase")
+    return int(np.sum(np.all([phase != allowed for allowed in expected.phases], axis=0)))
+
+
+def _wrong_status(segment: Segment, expected: Expected, first: int) -> int:
+    """16#7001 once and then 16#7002 on a trip, 16#7003 while stopping; at rest the position decides."""
+    moving = segment.column("phase") != STANDSTILL
+    follow = 0x7002 if first == 0x7001 else first
+    status = segment.column("status")
+    wanted = np.where(np.arange(len(status)) == 0, first, follow)
+    rest = np.where(segment.column("inPosition") != 0, 0x0000, 0x7000)
+    return int(np.sum(status != np.where(moving, wanted, rest)))
+
+
+def _wrong_flags(run: Run) -> int:
+    """busy, inPosition, error and overspeedTrip over a whole run without errors; the hoist ends in position."""
+    trace = run.trace
+    wrong = np.sum(trace["busy"] != (trace["phase"] != STANDSTILL))
+    wrong += np.sum(trace["error"]) + np.sum(trace["overspeedTrip"]) + np.sum(trace["inPosition"] & trace["busy"])
+    return int(wrong) + int(not trace["inPosition"][-1]) + int(trace["status"][-1] != 0)
+
+
+def _limited(run: Run) -> tuple[float, float]:
+    setpoint = run.trace["velocitySetpoint"].astype(np.float64)
+    clamped = np.sign(setpoint) * np.minimum(np.abs(setpoint), run.trace["envelopeVelocity"])
+    return _worst(np.abs(run.trace["limitedSetpoint"] - clamped), 0.0 * setpoint)
+
+
+def _velocity_limit(model: HoistModel, run: Run) -> tuple[float, float]:
+    limit = model.limits.max_velocity
+    return float(np.abs(run.trace["velocitySetpoint"]).max()), limit * (1 + LAW_ERROR)
+
+
+def _noise(model: HoistModel, run: Run) -> float:
+    """How far rounding of the measured travel moves the setpoint: gain times step, and the spacing of REAL."""
+    step = max(run.encoder.quantum, 2 * UNIT_ROUNDOFF * float(np.abs(run.trace["actualTravel"]).max()))
+    return model.steepest_gain * step + 2 * LAW_ERROR * model.limits.max_velocity
+
+
+def _stretch(model: HoistModel, run: Run) -> float:
+    """A scan at a held setpoint covers T (1 +- g T) of the reference: travel is v T, while v changes by a T.
+    A late or jittering measurement adds its own share of scans.
+    """
+    late = run.encoder.delay + 2 * run.clock.jitter
+    return 1 + model.steepest_gain * run.clock.period * (1 + late) + 2 * run.clock.jitter
+
+
+def _acceleration_limit(model: HoistModel, run: Run) -> tuple[float, float]:
+    """Mean acceleration over a window so long that the noise is below 1 % of the limit."""
+    limit, period = peak_acceleration(model), run.clock.period
+    scans = int(np.ceil(2 * _noise(model, run) / (0.01 * limit * period)))
+    velocity = run.trace["velocitySetpoint"].astype(np.float64)
+    if len(velocity) <= scans:
+        return 0.0, limit
+    mean = np.abs(velocity[scans:] - velocity[:-scans]) / (scans * period)
+    return float(mean.max()), limit * (_stretch(model, run) + 0.01)
+
+
+def _jerk_limit(model: HoistModel, run: Run) -> tuple[float, float]:
+    """Second difference over windows so long that the noise is below 1 % of the limit.
+
+    Where time is stretched by 1 + gT, jerk grows by its square, and by the change of the stretch: g/2 T (m + a g).
+    """
+    limit, period = model.limits.jerk, run.clock.period
+    scans = int(np.ceil(np.sqrt(4 * _noise(model, run) / (0.01 * limit)) / period))
+    velocity = run.trace["velocitySetpoint"].astype(np.float64)
+    if len(velocity) <= 2 * scans:
+        return 0.0, limit
+    second = velocity[2 * scans :] - 2 * velocity[scans:-scans] + velocity[: -2 * scans]
+    change = model.steepest_gain * period * (1 + peak_acceleration(model) * model.steepest_gain / limit)
+    bound = limit * (_stretch(model, run) ** 2 + change + 0.01)
+    return float(np.abs(second).max()) / (scans * period) ** 2, bound
+
+
+def _setpoint_step(model: HoistModel, run: Run) -> tuple[float, float]:
+    """One scan changes the setpoint by a T at most, stretched, and by the noise of the measurement."""
+    limit = peak_acceleration(model) * run.clock.period * _stretch(model, run)
+    return float(np.abs(np.diff(run.trace["velocitySetpoint"].astype(np.float64))).max()), limit + 2 * _noise(model, run)
+
+
+def _envelope_margin(unit: str, runs: list[Run]) -> Check:
+    margins = [np.min(r.trace["envelopeVelocity"] - np.abs(r.trace["velocitySetpoint"])) for r in runs]
+    return Check("envelope_margin", float(min(margins)), UNIT_ROUNDOFF, unit, at_least=True)
+
+
+def _duration(model: HoistModel, run: Run) -> tuple[float, float]:
+    """Held setpoints lag by half a scan for each e-fold of speed; each leg over travel is left up to a scan late."""
+    first, last, up = run.trips[0]
+    trip = model.trip(abs(float(run.stop_place) - float(run.trace["actualTravel"][first])))
+    folds = np.log(max(trip.cruise_velocity / trip.creep_velocity, 1.0))
+    late = 1 + run.encoder.delay + 2 * run.clock.jitter
+    bound = run.clock.period * ((folds + 6) * late)
+    return abs((last - first) * run.clock.period - trip.reference.duration), float(bound)
+
+
+def _stop_error(model: HoistModel, run: Run) -> tuple[float, float]:
+    """1 mm with a perfect encoder; a step of the encoder, a late scan and jitter at creep speed come on top."""
+    per_scan = model.limits.creep_velocity * run.clock.period
+    bound = model.millimetre + run.encoder.quantum + (run.encoder.delay + 2 * run.clock.jitter) * per_scan
+    return abs(run.travel_at_end - run.stop_place), bound
+
+
+def _isolation(bench: Bench) -> Check:
+    """A run whose temporaries start as garbage must agree bit by bit with one that starts with zeros."""
+    clean, dirty = (full_trip(bench, "isolation", up=True, temp_fill=fill) for fill in (0, FILL_PATTERN))
+    different = sum(
+        int(np.sum(clean.trace[name] != dirty.trace[name])) for name in clean.trace.columns if len(clean.trace) == len(dirty.trace)
+    )
+    return Check("unwritten_temporaries", float(different + abs(len(clean.trace) - len(dirty.trace))), 0.0, "1")

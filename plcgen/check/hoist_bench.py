@@ -1,0 +1,183 @@
+"""The bench of a hoist: makes rigs, runs trips, and remembers which rows of each trace are which."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from plcgen.check.hoist_expectation import Segment
+from plcgen.check.hoist_model import (
+    ACCELERATE,
+    CREEP_IN,
+    DECELERATE,
+    STANDSTILL,
+    START_RAMP,
+    STOP_RAMP,
+    HoistModel,
+)
+from plcgen.check.rig import Clock, Encoder, Rig
+from plcgen.plc.core import Program
+from plcgen.trajectory import Trajectory
+
+
+@dataclass(frozen=True)
+class Bench:
+    """The program under test, the names of its FB and instance DB, and the model it is held against."""
+
+    program: Program
+    block: str
+    instance: str
+    model: HoistModel
+
+    def rig(
+        self, travel: float, clock: Clock | None = None, encoder: Encoder = Encoder(), temp_fill: int = 0
+    ) -> Rig:
+        """A cold CPU with the hoist at rest at a place; the block is called with the period of the clock."""
+        clock = clock or Clock(self.model.sample_period)
+        rig = Rig(self.program, self.block, self.instance, travel, clock, encoder, temp_fill)
+        rig.set(cycleTime=clock.period)
+        return rig
+
+    def scans(self, seconds: float) -> int:
+        return int(seconds / self.model.sample_period) + 1
+
+    @property
+    def longest_trip(self) -> int:
+        """Scans that no trip exceeds: a quarter more than the planned time, and the time of a stop."""
+        return self.scans(1.25 * self.model.trip(self.model.limits.travel).reference.duration + 10)
+
+    @property
+    def longest_stop(self) -> int:
+        limits = self.model.limits
+        return self.scans(self.model.stop(limits.max_velocity, limits.acceleration).duration) + 10
+
+
+@dataclass
+class Run:
+    """One recorded run. `trips` and `stops` name the first and the last row of each, and the direction."""
+
+    name: str
+    encoder: Encoder
+    clock: Clock
+    travel_at_end: float = 0.0
+    stop_place: float = 0.0
+    trace: Trajectory = field(default_factory=lambda: Trajectory({}))
+    trips: list[tuple[int, int, bool]] = field(default_factory=list)
+    stops: list[tuple[int, int, bool]] = field(default_factory=list)
+    faults: Sequence[object] = ()
+    complete: bool = True
+
+    def segments(self, spans: list[tuple[int, int, bool]]) -> list[Segment]:
+        return [Segment(self.trace, *span) for span in spans]
+
+    def finish(self, rig: Rig, stop_place: float) -> Run:
+        self.trace, self.faults = rig.trace(), tuple(rig.machine.faults)
+        self.travel_at_end, self.stop_place = rig.plant.travel, stop_place
+        return self
+
+
+def at_rest(rig: Rig) -> bool:
+    return rig.get("phase") == STANDSTILL
+
+
+def full_trip(
+    bench: Bench,
+    name: str,
+    up: bool,
+    encoder: Encoder = Encoder(),
+    clock: Clock | None = None,
+    stops: tuple[float, float] | None = None,
+    temp_fill: int = 0,
+) -> Run:
+    """From stop to stop; the direction input is turned in mid-trip, which must change nothing."""
+    lower, upper = stops or (0.0, bench.model.limits.travel)
+    clock = clock or Clock(bench.model.sample_period)
+    rig = bench.rig(lower if up else upper, clock, encoder, temp_fill)
+    rig.set(lowerStop=lower, upperStop=upper, directionUp=up)
+    rig.scan()
+    rig.set(enable=True)
+    rig.scan()
+    rig.set(directionUp=not up)
+    run = Run(name, encoder, clock)
+    run.complete = rig.run(bench.longest_trip, at_rest)
+    run.trips.append((1, rig.scans, up))
+    rig.set(directionUp=up)
+    rig.run(3)
+    return run.finish(rig, upper if up else lower)
+
+
+def interrupted_trip(bench: Bench, name: str, up: bool, places: Sequence[float]) -> Run:
+    """A trip with a stop request at each place of travel, in turn by `stop` and by `enable`, and a fresh start after it."""
+    travel = bench.model.limits.travel
+    clock = Clock(bench.model.sample_period)
+    rig = bench.rig(0.0 if up else travel, clock)
+    rig.set(directionUp=up)
+    rig.scan()
+    run = Run(name, rig.encoder, clock)
+    for number, place in enumerate(places):
+        _leg_of(bench, run, rig, up, place)
+        run.complete &= not at_rest(rig)
+        _interrupt(bench, run, rig, up, by_stop=number % 2 == 0)
+    _leg_of(bench, run, rig, up, 2 * travel)
+    run.complete &= at_rest(rig)
+    rig.run(3)
+    return run.finish(rig, travel if up else 0.0)
+
+
+def _leg_of(bench: Bench, run: Run, rig: Rig, up: bool, place: float) -> None:
+    """Start, and run until the place is passed or the hoist rests."""
+    travel = bench.model.limits.travel
+    rig.set(enable=True)
+    first = rig.scans
+
+    def passed(rig: Rig) -> bool:
+        gone = rig.plant.travel if up else travel - rig.plant.travel
+        return at_rest(rig) or (gone >= place and rig.get("phase") <= CREEP_IN)
+
+    run.complete &= rig.run(bench.longest_trip, passed)
+    run.trips.append((first, rig.scans, up))
+
+
+def _interrupt(bench: Bench, run: Run, rig: Rig, up: bool, by_stop: bool) -> None:
+    first = rig.scans
+    rig.set(**({"stop": True} if by_stop else {"enable": False}))
+    run.complete &= rig.run(bench.longest_stop, at_rest)
+    run.stops.append((first, rig.scans, up))
+    # Releasing the stop must not start anything: that takes a fresh edge of enable.
+    rig.set(stop=False)
+    rig.run(3)
+    run.complete &= at_rest(rig)
+    rig.set(enable=False)
+    rig.scan()
+
+
+def turning_trip(bench: Bench, name: str) -> Run:
+    """Up, stop on the way, and back down to where it came from."""
+    clock = Clock(bench.model.sample_period)
+    rig = bench.rig(0.0, clock)
+    rig.set(directionUp=True)
+    rig.scan()
+    run = Run(name, rig.encoder, clock)
+    _leg_of(bench, run, rig, True, 0.45 * bench.model.limits.travel)
+    _interrupt(bench, run, rig, True, by_stop=True)
+    rig.set(directionUp=False)
+    rig.set(enable=True)
+    first = rig.scans
+    run.complete &= rig.run(bench.longest_trip, at_rest)
+    run.trips.append((first, rig.scans, False))
+    rig.run(3)
+    return run.finish(rig, 0.0)
+
+
+def stop_places(model: HoistModel) -> list[float]:
+    """Places of travel for stop requests: in each leg, and three in both transitions."""
+    reference = model.trip(model.limits.travel).reference
+    motion = reference.at_time(np.linspace(0.0, reference.duration, 4001))
+    places = []
+    for leg in range(START_RAMP, STOP_RAMP):
+        rows = np.flatnonzero(motion.leg == leg)
+        shares = (0.2, 0.5, 0.8) if leg in (ACCELERATE, DECELERATE) else (0.5,)
+        places += [float(motion.travel[rows[int(share * len(rows))]]) for share in shares if len(rows)]
+    return places
