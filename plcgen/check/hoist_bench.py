@@ -56,7 +56,7 @@ class Bench:
 
 @dataclass
 class Run:
-    """One recorded run. `trips` and `stops` name the first and the last row of each, and the direction."""
+    """One recorded run; `nominal` ones see the travel as it is, counted from the lower stop. `trips` and `stops` name the first and the last row of each, and the direction."""
 
     name: str
     encoder: Encoder
@@ -68,6 +68,12 @@ class Run:
     stops: list[tuple[int, int, bool]] = field(default_factory=list)
     faults: Sequence[object] = ()
     complete: bool = True
+    nominal: bool = False
+
+    @property
+    def is_exact(self) -> bool:
+        """A perfect encoder, an interrupt on time, one trip from stop to stop."""
+        return self.encoder == Encoder() and not self.clock.jitter and len(self.trips) == 1
 
     def segments(self, spans: list[tuple[int, int, bool]]) -> list[Segment]:
         return [Segment(self.trace, *span) for span in spans]
@@ -100,7 +106,7 @@ def full_trip(
     rig.set(enable=True)
     rig.scan()
     rig.set(directionUp=not up)
-    run = Run(name, encoder, clock)
+    run = Run(name, encoder, clock, nominal=stops is None and encoder == Encoder())
     run.complete = rig.run(bench.longest_trip, at_rest)
     run.trips.append((1, rig.scans, up))
     rig.set(directionUp=up)

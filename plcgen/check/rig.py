@@ -82,6 +82,7 @@ class Rig:
         self.scans = 0
         self.forced: dict[str, float] = {}
         self._random = Random(clock.seed)
+        self._variables: dict[str, Variable] = {}
         self._memory = self.machine.memory[instance]
         self._records: list[tuple[float, float, bytes]] = []
         self._call = self.machine.call
@@ -90,7 +91,10 @@ class Rig:
         )
 
     def variable(self, name: str) -> Variable:
-        return self.machine.variable(f'"{self.instance}".{name}')
+        """A variable of the instance, looked up once."""
+        if name not in self._variables:
+            self._variables[name] = self.machine.variable(f'"{self.instance}".{name}')
+        return self._variables[name]
 
     def set(self, **inputs: float) -> None:
         """Set inputs of the block."""

@@ -1,0 +1,418 @@
+"""The command line: arguments in, text out. What a command needs is imported when it runs, so that help is quick."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from plcgen import __version__, terminal
+from plcgen.errors import Fault, PlcgenError
+
+if TYPE_CHECKING:
+    from plcgen.check.verdict import Check, Verdict
+    from plcgen.job import Job
+    from plcgen.pipeline import Plan
+    from plcgen.profile.constants import ConstantGroup
+
+FAILED, BAD_INPUT = 1, 2
+# As a shell reports a program that the keyboard or a closed pipe has ended.
+INTERRUPTED, PIPE_CLOSED = 130, 141
+DEBUG = "PLCGEN_DEBUG"
+"""Environment variable: set to anything, an error inside plcgen itself shows its traceback."""
+
+PATH = click.Path(path_type=Path)
+
+
+class Commands(click.Group):
+    """Turns whatever goes wrong into one message and an exit code."""
+
+    def main(self, *args: Any, **extra: Any) -> Any:
+        terminal.prepare_streams()
+        return super().main(*args, **extra)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+        except (click.ClickException, click.exceptions.Exit, click.Abort):
+            raise
+        except KeyboardInterrupt:
+            raise click.exceptions.Exit(INTERRUPTED) from None
+        except Exception as error:
+            raise click.exceptions.Exit(_exit_code(error)) from error
+        return result
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args[0] not in self.commands and not args[0].startswith("-"):
+            from plcgen.names import nearest
+
+            near = nearest(args[0], self.commands)
+            known = f'write "{near}"' if near else f"there is {', '.join(self.list_commands(ctx))}"
+            raise click.UsageError(f'unknown command "{terminal.printable(args[0])}"; {known}', ctx)
+        return super().resolve_command(ctx, args)
+
+    def list_commands(self, _ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+
+def _exit_code(error: Exception) -> int:
+    """Say what went wrong."""
+    if isinstance(error, PlcgenError):
+        terminal.tell(f"error: {error}")
+        return FAILED if isinstance(error, Fault) else BAD_INPUT
+    if isinstance(error, OSError):
+        return _system_error(error)
+    if os.environ.get(DEBUG):
+        raise error
+    terminal.tell(f"error: {type(error).__name__} inside plcgen: {error}; set {DEBUG}=1 to see where, and report it")
+    return BAD_INPUT
+
+
+def _system_error(error: OSError) -> int:
+    if error.errno == errno.EPIPE:
+        # Python flushes stdout once more at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PIPE_CLOSED
+    place = f"{error.filename}: " if error.filename else ""
+    terminal.tell(f"error: {place}{error.strerror or error}")
+    return BAD_INPUT
+
+
+def _fail(message: str) -> NoReturn:
+    """The check failed."""
+    terminal.tell(f"error: {message}")
+    raise click.exceptions.Exit(FAILED)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="plcgen", message="%(prog)s %(version)s")
+def main() -> None:
+    """Jerk-limited motion source for Siemens PLCs, executed and verified before it is written.
+
+    \b
+    Example:
+      plcgen new hoist               write hoist.toml, an example job
+      plcgen generate hoist.toml     verify it and write the sources
+    """
+
+
+# ----------------------------------------------------------------------------------------------------------- jobs
+
+
+@main.command()
+@click.argument("method")
+@click.option("-o", "--output", type=PATH, metavar="JOB", help="File to write; default METHOD.toml.")
+def new(method: str, output: Path | None) -> None:
+    """Write a commented example job. A file that exists is left alone.
+
+    \b
+    Example:
+      plcgen new hoist -o shaft.toml
+    """
+    from plcgen.files import write_file
+    from plcgen.job import example_job
+
+    text = example_job(method)
+    path = output or Path(f"{method}.toml")
+    if path.exists():
+        raise PlcgenError(f"{path}: exists already; name another file with -o")
+    write_file(path, text.encode())
+    terminal.say(f"wrote {path}")
+
+
+@main.command()
+def schema() -> None:
+    """Print the JSON Schema of the job file, for editors that check while you type.
+
+    \b
+    Example:
+      plcgen schema > job.schema.json
+    """
+    from plcgen.job import job_schema
+
+    _print_json(job_schema())
+
+
+@main.command()
+@click.argument("job", type=PATH)
+@click.option("--json", "as_json", is_flag=True, help="JSON on stdout.")
+def derive(job: Path, as_json: bool) -> None:
+    """Print the constants of the motion, with the numbers of their equations.
+
+    \b
+    Example:
+      plcgen derive hoist.toml
+    """
+    from plcgen import pipeline
+    from plcgen.job import read_job
+
+    read = read_job(job)
+    derivation = pipeline.derivation(pipeline.prepare(read))
+    if as_json:
+        _print_json(_derivation_json(read, derivation))
+        return
+    terminal.show(_legs_table(read, derivation.legs))
+    for group in derivation.tables:
+        terminal.show(_constants_table(group))
+
+
+def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
+    legs = [
+        {key: getattr(leg, key) for key in ("name", "duration", "travel", "end_velocity")} for leg in derivation.legs
+    ]
+    tables = [
+        {"title": group.title, "constants": [vars(constant) for constant in group.constants]}
+        for group in derivation.tables
+    ]
+    return {"job": job.name, "method": job.method, "length_unit": job.length_unit, "legs": legs, "tables": tables}
+
+
+def _legs_table(job: Job, legs: Iterable[Any]) -> terminal.Table:
+    unit = job.length_unit
+    rows = [(leg.name, *map(_number, (leg.duration, leg.travel, leg.end_velocity))) for leg in legs]
+    total = ("total", _number(sum(leg.duration for leg in legs)), _number(sum(leg.travel for leg in legs)), "")
+    headings = ("leg", ">duration s", f">travel {unit}", f">end velocity {unit}/s")
+    return terminal.Table(f"Trip of {job.name}", headings, [*rows, total])
+
+
+def _constants_table(group: ConstantGroup) -> terminal.Table:
+    rows = [(c.name, _number(c.value), c.unit, c.comment, c.origin) for c in group.constants]
+    return terminal.Table(group.title, ("constant", ">value", "unit", "meaning", "equation"), rows)
+
+
+def _number(value: float) -> str:
+    return f"{value:.9g}"
+
+
+# --------------------------------------------------------------------------------------------------- verification
+
+TARGET = click.option("--target", metavar="T", help="One target of the job only.")
+
+
+@main.command()
+@click.argument("job", type=PATH)
+@click.option("-o", "--output", type=PATH, metavar="DIR", help="Folder to write to; default the name of the job.")
+@TARGET
+@click.option("--no-verify", is_flag=True, help="Write without running the sources; their headers say so.")
+def generate(job: Path, output: Path | None, target: str | None, no_verify: bool) -> None:
+    """Verify the sources of a job and write them to DIR/<target>. Nothing is written unless all of them pass.
+
+    \b
+    Example:
+      plcgen generate hoist.toml -o sources
+    """
+    from plcgen import pipeline
+    from plcgen.files import check_folder, write_files
+    from plcgen.job import read_job
+
+    read = read_job(job)
+    folder = output or Path(read.name)
+    check_folder(folder)
+    plan = pipeline.prepare(read)
+    sources = {name: pipeline.sources(plan, name, not no_verify) for name in _targets(read, target)}
+    if no_verify:
+        terminal.tell("warning: the sources are not verified; their headers say so")
+    else:
+        _require(_verified(plan, sources))
+    files = {f"{name}/{file}": data for name, files in sources.items() for file, data in files.items()}
+    write_files(folder, files)
+    terminal.say("\n".join(f"wrote {folder / file}" for file in files))
+
+
+def _require(verdict: Verdict) -> None:
+    """Show the verdict; end here when it is not good."""
+    terminal.show(_verdict_table(verdict))
+    if not verdict.ok:
+        _fail(f"{_failures(verdict)}; nothing was written")
+
+
+@main.command()
+@click.argument("job", type=PATH)
+@click.option("--source", type=PATH, metavar="DIR", help="Verify the files in DIR/<target> or DIR instead.")
+@TARGET
+@click.option("--json", "as_json", is_flag=True, help="JSON on stdout.")
+def verify(job: Path, source: Path | None, target: str | None, as_json: bool) -> None:
+    """Execute the sources of a job scan by scan against the reference.
+
+    \b
+    Example:
+      plcgen verify hoist.toml --source sources
+    """
+    from plcgen import pipeline
+    from plcgen.files import read_sources
+    from plcgen.job import read_job
+
+    read = read_job(job)
+    targets = _targets(read, target)
+    plan = pipeline.prepare(read)
+    sources = read_sources(source, targets) if source else {name: pipeline.sources(plan, name) for name in targets}
+    verdict = _verified(plan, sources)
+    if as_json:
+        _print_json(verdict.as_json())
+    else:
+        terminal.show(_verdict_table(verdict))
+    if not verdict.ok:
+        _fail(_failures(verdict))
+
+
+def _targets(job: Job, chosen: str | None) -> tuple[str, ...]:
+    """The targets to work on. Raises PlcgenError for one that the job does not name."""
+    from plcgen.targets import target
+
+    if chosen is None:
+        return job.targets
+    if target(chosen).name not in job.targets:
+        raise job.error("targets", f'does not name "{chosen}"; add it, or choose another --target')
+    return (chosen,)
+
+
+def _verified(plan: Plan, sources: Mapping[str, Mapping[str, bytes]]) -> Verdict:
+    from plcgen import pipeline
+    from plcgen.check.verdict import Verdict
+
+    verdicts = {}
+    with terminal.progress() as progress:
+        for name, files in sources.items():
+            progress(name)
+            verdicts[name] = pipeline.verify(plan, name, files, lambda text, name=name: progress(f"{name}: {text}"))  # type: ignore[misc]
+    return Verdict(plan.job.name, verdicts)
+
+
+def _verdict_table(verdict: Verdict) -> terminal.Table:
+    rows = [_check_row(name, check) for name, target in verdict.targets.items() for check in target.checks]
+    headings = ("target", "check", ">value", ">bound", "unit", "result")
+    return terminal.Table(f"Verification of {verdict.job}", headings, rows)
+
+
+def _check_row(target: str, check: Check) -> tuple[str, ...]:
+    bound = f"{'>=' if check.at_least else '<='} {check.bound:.4g}"
+    result = terminal.OK if check.ok else terminal.FAILED
+    return (target, check.name, f"{check.value:.4g}", bound, check.unit, result)
+
+
+def _failures(verdict: Verdict) -> str:
+    counts = {name: f"{len(target.failed)} of {len(target.checks)}" for name, target in verdict.targets.items()}
+    bad = [f"{counts[name]} checks failed for {name}" for name, target in verdict.targets.items() if not target.ok]
+    details = [f"    {name}: {check.name}: {check.detail}" for name, check in _failed(verdict) if check.detail]
+    return "\n".join([", ".join(bad), *details])
+
+
+def _failed(verdict: Verdict) -> Iterable[tuple[str, Check]]:
+    return ((name, check) for name, target in verdict.targets.items() for check in target.failed)
+
+
+@main.command()
+@click.argument("folder", type=PATH, metavar="[DIR]", default="golden")
+@click.option("--update", is_flag=True, help="Rewrite sources and traces of every case that verifies.")
+def check(folder: Path, update: bool) -> None:
+    """Compare golden cases, DIR/<case>/job.toml, with what comes out today. Default DIR: golden.
+
+    \b
+    Example:
+      plcgen check golden --update
+    """
+    from plcgen.golden import check_golden
+
+    with terminal.progress() as progress:
+        reports = check_golden(folder, update, progress)
+    for report in reports:
+        terminal.say(f"{report.case}: {terminal.OK if report.ok else terminal.FAILED}")
+        for text in (*(f"updated {path}" for path in report.updated), *report.findings):
+            terminal.say(text)
+        if report.error:
+            terminal.tell(f"error: {report.case}: {report.error}")
+    if any(report.error for report in reports):
+        raise click.exceptions.Exit(BAD_INPUT)
+    if not all(report.ok for report in reports):
+        _fail(f"{sum(not report.ok for report in reports)} of {len(reports)} cases failed")
+
+
+# --------------------------------------------------------------------------------------------------------- sources
+
+
+@main.command()
+@click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
+@click.option("--target", metavar="T", help="Import rules of this target; default what the text looks like.")
+def lint(files: tuple[Path, ...], target: str | None) -> None:
+    """Check SCL sources: syntax, types, and what STEP 7 and TIA refuse at import. Blocks may use blocks of other FILEs.
+
+    \b
+    Example:
+      plcgen lint motor.scl main.scl --target s7-300-scl
+    """
+    from plcgen.lint import lint_files
+    from plcgen.targets import target as row
+
+    findings = lint_files(files, row(target).name if target else None)
+    for finding in findings:
+        excerpt = finding.location.excerpt()
+        terminal.say(f"{finding}\n{excerpt}" if excerpt else str(finding))
+    errors = sum(finding.severity == "error" for finding in findings)
+    terminal.tell(f"{len(files)} files: {errors} errors, {len(findings) - errors} warnings")
+    if errors:
+        raise click.exceptions.Exit(FAILED)
+
+
+@main.command()
+@click.argument("file", type=PATH)
+@click.option("--block", required=True, metavar="NAME", help="FB, FC or OB to call once a scan.")
+@click.option("--scans", required=True, type=click.IntRange(1), metavar="N", help="Number of scans.")
+@click.option("--period", required=True, metavar="TIME", help="From scan to scan: 10ms, 0.01s, 1s.")
+@click.option("--set", "inputs", multiple=True, metavar="NAME=VALUE", help="Set a variable before the first scan.")
+@click.option("--watch", multiple=True, metavar="NAME,...", help="Variables to record; default all outputs.")
+@click.option("-o", "--output", type=PATH, metavar="CSV", help="File for the rows; default stdout.")
+def run(
+    file: Path,
+    block: str,
+    scans: int,
+    period: str,
+    inputs: tuple[str, ...],
+    watch: tuple[str, ...],
+    output: Path | None,
+) -> None:
+    """Execute any block of an SCL source and print its variables as CSV, one row a scan.
+
+    An FB runs on the instance that FILE declares for it, else on a fresh one. Inputs keep their value.
+    M0.0, MW10 and members of data blocks can be set and watched too.
+
+    \b
+    Example:
+      plcgen run ramp.scl --block FB1 --scans 100 --period 10ms --set enable=true --watch speed
+    """
+    from plcgen.files import write_file
+    from plcgen.run import Order, parse_period, run_file
+
+    watched = [name.strip() for names in watch for name in names.split(",") if name.strip()]
+    order = Order(file, block, scans, parse_period(period), [_assignment(text) for text in inputs], watched)
+    with terminal.progress() as progress:
+        outcome = run_file(order, progress)
+    text = outcome.trace.to_csv()
+    if output is None:
+        terminal.say(text.removesuffix("\n"))
+    else:
+        write_file(output, text.encode())
+    for fault in outcome.faults:
+        terminal.tell(f"fault: {fault}")
+    if outcome.faults:
+        raise click.exceptions.Exit(FAILED)
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise PlcgenError(f"--set {text}: no assignment; write NAME=VALUE, such as enable=true")
+    return name.strip(), value.strip()
+
+
+def _print_json(data: object) -> None:
+    # ASCII, so that no console and no code page can spoil it.
+    print(json.dumps(data, indent=2))

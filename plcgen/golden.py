@@ -1,0 +1,210 @@
+"""Golden cases: stored sources and traces, held against what comes out today.
+
+A case is a folder with `job.toml`, `<target>/` with the sources, `reference.csv`, and `trace-<target>.csv`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from difflib import unified_diff
+from pathlib import Path
+
+import numpy as np
+
+from plcgen.check.verdict import Check
+from plcgen.errors import PlcgenError
+from plcgen.files import write_files
+from plcgen.job import read_job
+from plcgen.trajectory import Trajectory
+
+JOB = "job.toml"
+PHASE = "phase"
+MAX_ROWS = 1000
+"""A stored trace has one row more at most, and two for each change of phase."""
+MAX_TRACE_DIFF = 40
+NEVER_STORED = frozenset({"Thumbs.db", "desktop.ini"})
+
+
+@dataclass(frozen=True)
+class CaseReport:
+    """What was found in one case: findings that make the check fail, files rewritten, or an error of its input."""
+
+    case: str
+    findings: tuple[str, ...] = ()
+    updated: tuple[str, ...] = ()
+    error: str = ""
+
+    @property
+    def ok(self) -> bool:
+        return not self.findings and not self.error
+
+
+def check_golden(folder: Path, update: bool, done: Callable[[str], None]) -> list[CaseReport]:
+    """Check every case of a folder; `done` gets a line after each. Raises PlcgenError when there is none."""
+    cases = find_cases(folder)
+    reports = []
+    for number, report in enumerate(_each(cases, update), start=1):
+        reports.append(report)
+        done(f"{number} of {len(cases)} cases checked")
+    return reports
+
+
+def find_cases(folder: Path) -> list[Path]:
+    """Folders with a job below `folder`."""
+    if not folder.is_dir():
+        raise PlcgenError(f"{folder}: no such folder; plcgen check takes the folder of the golden cases")
+    cases = sorted(job.parent for job in folder.glob(f"*/{JOB}"))
+    if not cases:
+        raise PlcgenError(f"{folder}: no case in it; a case is a folder with a {JOB}")
+    return cases
+
+
+def _each(cases: list[Path], update: bool) -> Iterator[CaseReport]:
+    workers = min(len(cases), os.cpu_count() or 1)
+    if workers == 1:
+        yield from (check_case(case, update) for case in cases)
+        return
+    yield from _in_processes(cases, update, workers)
+
+
+def _in_processes(cases: list[Path], update: bool, workers: int) -> Iterator[CaseReport]:
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, context, _die_quietly) as pool:
+        try:
+            yield from pool.map(check_case, cases, [update] * len(cases))
+        except BrokenProcessPool:
+            raise PlcgenError("a process that checked a case has died; is there enough memory?") from None
+
+
+def _die_quietly() -> None:
+    """An interrupt from the keyboard reaches the workers too; the parent alone speaks of it."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+# ----------------------------------------------------------------------------------------------------------- case
+
+
+def check_case(folder: Path, update: bool = False) -> CaseReport:
+    """Check one case. With `update` its files are rewritten, if verification holds."""
+    try:
+        return _checked(folder, update)
+    except PlcgenError as error:
+        return CaseReport(folder.name, error=str(error))
+
+
+def _checked(folder: Path, update: bool) -> CaseReport:
+    files, deviations = _regenerate(folder)
+    differing = {name: data for name, data in files.items() if _stored(folder / name) != data}
+    extra = tuple(f"{folder / name}: is not generated; remove it" for name in _extra(folder, files))
+    if update and not deviations:
+        write_files(folder, differing)
+        return CaseReport(folder.name, extra, tuple(str(folder / name) for name in differing))
+    differences = tuple(_difference(folder / name, data) for name, data in differing.items())
+    return CaseReport(folder.name, deviations + differences + extra)
+
+
+def _regenerate(folder: Path) -> tuple[dict[str, bytes], tuple[str, ...]]:
+    """All files of a case by relative name, and what verification has against them."""
+    from plcgen import pipeline
+
+    job = read_job(folder / JOB)
+    plan = pipeline.prepare(job)
+    files = {"reference.csv": stored_text(pipeline.reference(plan)).encode()}
+    deviations: list[str] = []
+    for target in job.targets:
+        sources = pipeline.sources(plan, target)
+        verdict = pipeline.verify(plan, target, sources)
+        deviations += [f"{folder / target}: {deviation(check)}" for check in verdict.failed]
+        files |= {f"{target}/{name}": data for name, data in sources.items()}
+        files[f"trace-{target}.csv"] = stored_text(pipeline.golden_trace(plan, target, sources)).encode()
+    return files, tuple(deviations)
+
+
+def deviation(check: Check) -> str:
+    """A failed check in words."""
+    side = "below" if check.at_least else "above"
+    detail = f" ({check.detail})" if check.detail else ""
+    return f"{check.name}: {check.value:.4g} {check.unit} is {side} the bound {check.bound:.4g} {check.unit}{detail}"
+
+
+def _extra(folder: Path, files: Mapping[str, bytes]) -> list[str]:
+    names = (path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    kept = (name for name in names if not name.name.startswith(".") and name.name not in NEVER_STORED)
+    return sorted({name.as_posix() for name in kept} - set(files) - {JOB})
+
+
+def _stored(path: Path) -> bytes | None:
+    """A stored file; line ends of a CSV are its own matter, those of a source belong to it."""
+    if not path.is_file():
+        return None
+    data = path.read_bytes()
+    return data.replace(b"\r\n", b"\n") if path.suffix == ".csv" else data
+
+
+# ---------------------------------------------------------------------------------------------------------- traces
+
+
+def stored_text(trajectory: Trajectory) -> str:
+    """CSV of a trajectory thinned out, behind a line that stands for all of it."""
+    return f"# {len(trajectory)} rows, sha256 {trajectory.sha256()}\n{thinned(trajectory).to_csv()}"
+
+
+def thinned(trajectory: Trajectory) -> Trajectory:
+    """Every n-th row, both rows around each change of phase, and the last."""
+    count = len(trajectory)
+    kept = np.zeros(count, dtype=bool)
+    kept[:: max(1, -(-count // MAX_ROWS))] = True
+    kept[-1:] = True
+    if PHASE in trajectory.columns:
+        phase = trajectory[PHASE]
+        before = np.flatnonzero(phase[1:] != phase[:-1])
+        kept[before] = kept[before + 1] = True
+    return trajectory.rows(kept)
+
+
+# ----------------------------------------------------------------------------------------------------- differences
+
+
+def _difference(path: Path, new: bytes) -> str:
+    old = _stored(path)
+    if old is None:
+        return f"{path}: is missing; plcgen check --update writes it"
+    lines = list(unified(old, new, str(path)))
+    if path.suffix == ".csv" and len(lines) > MAX_TRACE_DIFF:
+        lines[MAX_TRACE_DIFF:] = [f"... {len(lines) - MAX_TRACE_DIFF} more lines"]
+    return "\n".join(lines)
+
+
+def unified(old: bytes, new: bytes, name: str) -> Iterator[str]:
+    """A unified diff of two files. CR shows as \\r, a byte order mark as \\ufeff, unless both have them alike."""
+    before, after = _decoded(old, new)
+    if _all_crlf(before) and _all_crlf(after):
+        before, after = before.replace("\r\n", "\n"), after.replace("\r\n", "\n")
+    differences = unified_diff(_lines(before), _lines(after), f"{name} (stored)", f"{name} (generated)", lineterm="")
+    return (line.replace("\r", "\\r").replace("\ufeff", "\\ufeff") for line in differences)
+
+
+def _decoded(old: bytes, new: bytes) -> tuple[str, str]:
+    """Both in one encoding, so that different bytes never look alike."""
+    try:
+        return old.decode(), new.decode()
+    except UnicodeDecodeError:
+        return old.decode("latin-1"), new.decode("latin-1")
+
+
+def _all_crlf(text: str) -> bool:
+    return text.count("\n") == text.count("\r\n") == text.count("\r")
+
+
+def _lines(text: str) -> list[str]:
+    """The lines; a missing end of the last one is told as `diff` tells it."""
+    lines = text.split("\n")
+    return lines[:-1] if not lines[-1] else [*lines, "\\ No newline at end of file"]
