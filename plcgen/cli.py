@@ -119,14 +119,23 @@ def new(method: str, output: Path | None) -> None:
       plcgen new hoist -o shaft.toml
     """
     from plcgen.files import write_file
-    from plcgen.job import example_job
+    from plcgen.render.environment import template_folder
 
-    text = example_job(method)
+    _require_method(method)
     path = output or Path(f"{method}.toml")
     if path.exists():
         raise PlcgenError(f"{path}: exists already; name another file with -o")
-    write_file(path, text.encode())
+    write_file(path, (template_folder() / "jobs" / f"{method}.toml").read_bytes())
     terminal.say(f"wrote {path}")
+
+
+def _require_method(method: str) -> None:
+    from plcgen.jobfile import METHODS
+    from plcgen.names import nearest, one_of
+
+    if method not in METHODS:
+        near = nearest(method, METHODS)
+        raise PlcgenError(f'unknown method "{method}"; write {one_of([near] if near else METHODS)}')
 
 
 @main.command()
@@ -397,7 +406,7 @@ def run(
         outcome = run_file(order, progress)
     text = outcome.trace.to_csv()
     if output is None:
-        terminal.say(text.removesuffix("\n"))
+        sys.stdout.write(text)
     else:
         write_file(output, text.encode())
     for fault in outcome.faults:

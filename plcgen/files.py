@@ -69,7 +69,7 @@ class _Exchange:
     created: list[Path] = field(default_factory=list)
 
     def run(self, files: Mapping[Path, bytes]) -> None:
-        # Beside the destination, for os.replace does not cross the border of a file system.
+        # Beside the destination, for replacing does not cross the border of a file system.
         staging = Path(tempfile.mkdtemp(prefix=".plcgen-", dir=_nearest_existing(self.folder)))
         try:
             staged = [self._stage(staging / f"new{number}", data) for number, data in enumerate(files.values())]
@@ -88,13 +88,12 @@ class _Exchange:
 
     def _exchange(self, new: Path, destination: Path, backup: Path) -> None:
         self._make_folder(destination.parent)
+        previous = None
         if destination.exists():
             shutil.copymode(destination, new)
-            os.replace(destination, backup)
-            self.replaced.append((destination, backup))
-        else:
-            self.replaced.append((destination, None))
-        os.replace(new, destination)
+            previous = Path(shutil.copy2(destination, backup))
+        new.replace(destination)
+        self.replaced.append((destination, previous))
 
     def _make_folder(self, folder: Path) -> None:
         if not folder.is_dir():
@@ -108,7 +107,7 @@ class _Exchange:
                 if backup is None:
                     destination.unlink(missing_ok=True)
                 else:
-                    os.replace(backup, destination)
+                    backup.replace(destination)
         for folder in reversed(self.created):
             with suppress(OSError):
                 folder.rmdir()

@@ -113,6 +113,8 @@ def golden_trace(plan: Plan, target: str, files: Mapping[str, bytes]) -> Traject
 def hoist_model(plan: Plan) -> HoistModel:
     """The references that the checks ask for."""
     limits, trip = plan.job.hoist, plan.trip
+    # The block knows the speed that the job reaches, also where its stops are set farther apart.
+    reached = limits.model_copy(update={"max_velocity": trip.cruise_velocity})
 
     def envelope(from_stop: np.ndarray, to_go: np.ndarray) -> np.ndarray:
         return trip.envelope.velocity(from_stop, to_go)
@@ -126,7 +128,7 @@ def hoist_model(plan: Plan) -> HoistModel:
         shortest_jerk_time=trip.shortest_jerk_time,
         position_window=position_window(plan.job),
         min_travel=creeping_travel(limits),
-        trip=lambda distance: _trip_model(plan_trip(limits, distance)),
+        trip=lambda distance: _trip_model(plan_trip(reached, distance)),
         stop=lambda velocity, acceleration: plan_stop(limits, velocity, acceleration),
         envelope=envelope,
     )
@@ -136,6 +138,7 @@ def _trip_model(trip: Trip) -> TripModel:
     return TripModel(
         reference=trip.reference,
         start_time=trip.start.duration,
+        start_travel=trip.start.travel,
         stop_time=trip.stop.duration,
         stop_travel=trip.stop.travel,
         creep_velocity=trip.creep_velocity,

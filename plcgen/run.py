@@ -25,7 +25,7 @@ from plcgen.plc.scl.lowering_declarations import CALLABLE, Catalogue, Interface,
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block, BlockKind, SectionKind
 from plcgen.plc.source import Span, read_source
-from plcgen.plc.types import CHAR, Elementary, Family, String, Structure
+from plcgen.plc.types import CHAR, Elementary, Family, String
 from plcgen.trajectory import Trajectory
 
 INSTANCE = "plcgen instance"

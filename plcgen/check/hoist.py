@@ -216,17 +216,19 @@ def _velocity_limit(model: HoistModel, run: Run) -> tuple[float, float]:
 
 
 def _noise(model: HoistModel, run: Run) -> float:
-    """How far rounding of the measured travel moves the setpoint: gain times step, and the spacing of REAL."""
+    """How far the measurement moves the setpoint: gain times the step of the travel, the acceleration in the time that
+    a call comes early or late, and the error of the law.
+    """
     step = max(run.encoder.quantum, 2 * UNIT_ROUNDOFF * float(np.abs(run.trace["actualTravel"]).max()))
-    return model.steepest_gain * step + 2 * LAW_ERROR * model.limits.max_velocity
+    early = peak_acceleration(model) * run.clock.jitter * run.clock.period
+    return model.steepest_gain * step + early + 2 * LAW_ERROR * model.limits.max_velocity
 
 
 def _stretch(model: HoistModel, run: Run) -> float:
     """A scan at a held setpoint covers T (1 +- g T) of the reference: travel is v T, while v changes by a T.
-    A late or jittering measurement adds its own share of scans.
+    A late measurement adds a scan to that.
     """
-    late = run.encoder.delay + 2 * run.clock.jitter
-    return 1 + model.steepest_gain * run.clock.period * (1 + late) + 2 * run.clock.jitter
+    return 1 + model.steepest_gain * run.clock.period * (1 + run.encoder.delay)
 
 
 def _acceleration_limit(model: HoistModel, run: Run) -> tuple[float, float]:

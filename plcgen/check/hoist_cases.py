@@ -162,12 +162,21 @@ def _overwind(bench: Bench) -> Iterator[str]:
         rig.set(enable=True)
         rig.scan()
         yield _differs(rig, "start beyond the stop", status=AT_REST, phase=STANDSTILL, inPosition=0, error=0)
+    yield from _window(bench)
+
+
+def _window(bench: Bench) -> Iterator[str]:
+    """Around the lower stop, where REAL resolves half a percent of the window."""
     window = bench.model.position_window
     for share, arrived in ((1 - PROBE, 1), (1 + PROBE, 0)):
         for side in (1, -1):
-            rig, _ = _standing(bench, limits.travel + side * share * window)
-            yield _differs(rig, "position window", inPosition=arrived, status=AT_REST if not arrived else AT_THE_STOP)
-        rig, _ = _standing(bench, limits.travel - share * window)
+            rig, _ = _standing(bench, side * share * window)
+            rig.set(directionUp=False)
+            rig.scan()
+            yield _differs(rig, "position window", inPosition=arrived, status=AT_THE_STOP if arrived else AT_REST)
+        rig, _ = _standing(bench, share * window)
+        rig.set(directionUp=False)
+        rig.scan()
         rig.set(enable=True)
         rig.scan()
         yield _differs(rig, "start within the window", busy=1 - arrived)
@@ -227,7 +236,7 @@ def _restarts(bench: Bench) -> Iterator[str]:
     model = bench.model
     creep, travel = model.limits.creep_velocity, model.limits.travel
     for sign in (1, -1):
-        for speed in (0.02 * creep, creep, 0.5 * model.limits.max_velocity):
+        for speed in (0.02 * creep, creep, 0.5 * model.trip(travel).cruise_velocity):
             rig, _ = _standing(bench, travel / 2)
             rig.set(restart=True, enable=True, directionUp=sign < 0)
             rig.plant.velocity = sign * speed

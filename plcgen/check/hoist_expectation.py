@@ -95,7 +95,8 @@ def expect_trip(model: HoistModel, segment: Segment) -> Expected:
     trip = model.trip(float(segment.to_go[0]))
     period = float(segment.column("cycleTime")[0])
     resolution = travel_resolution(model, segment)
-    law = trip.reference.at_travel(segment.travelled)
+    # The start ramp ends by the clock; what little travel is then left of it belongs to creep out.
+    law = trip.reference.at_travel(np.maximum(segment.travelled, trip.start_travel))
     # The setpoint of a ramp is held for a cycle: it is the speed in the middle of the cycle.
     middle = (np.arange(segment.last - segment.first) + 0.5) * period
     starting = middle < trip.start_time

@@ -44,6 +44,7 @@ class TripModel:
 
     reference: Reference
     start_time: float
+    start_travel: float
     stop_time: float
     stop_travel: float
     creep_velocity: float

@@ -27,7 +27,7 @@ def depressed_cubic_roots(p: float, q: float) -> tuple[float, ...]:
     if p == 0 == q:
         return 0.0, 0.0, 0.0
     # Measured in units of its own size, a power of two, the equation neither overflows nor loses a bit.
-    exponent = frexp(max(sqrt(abs(p)), cbrt(abs(q))))[1]
+    exponent = max(frexp(number)[1] // power for number, power in ((p, 2), (q, 3)) if number)
     roots = _scaled_roots(ldexp(p, -2 * exponent), ldexp(q, -3 * exponent))
     return tuple(ldexp(root, exponent) for root in roots)
 

@@ -86,7 +86,7 @@ def trips(draw: st.DrawFn) -> Trip:
     return plan_trip(limits, needed * draw(exactly | below | above))
 
 
-@settings(max_examples=400, deadline=None, print_blob=True)
+@settings(max_examples=120, deadline=None, print_blob=True)
 @given(trips())
 def test_trips_keep_their_limits_and_end_at_rest_at_the_stop(trip: Trip) -> None:
     limits = trip.limits
@@ -105,7 +105,7 @@ def test_trips_keep_their_limits_and_end_at_rest_at_the_stop(trip: Trip) -> None
     assert all(phase.duration >= 0 for phase in trip.reference.phases)
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(trips())
 def test_ramps_keep_the_limits_of_the_creep_speed(trip: Trip) -> None:
     limits, phases = trip.limits, list(trip.reference.phases)
@@ -118,7 +118,7 @@ def test_ramps_keep_the_limits_of_the_creep_speed(trip: Trip) -> None:
     assert trip.creep_velocity <= limits.creep_velocity
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(trips())
 def test_legs_are_what_the_reference_runs(trip: Trip) -> None:
     phases = list(trip.reference.phases)
@@ -136,7 +136,7 @@ def test_legs_are_what_the_reference_runs(trip: Trip) -> None:
     assert taken == phases
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(hoist_limits(), magnitude(1e-6, 0.999999))
 def test_short_trips_only_creep(limits: HoistLimits, share: float) -> None:
     trip = plan_trip(limits, creeping_travel(limits) * share)
@@ -180,7 +180,7 @@ def bounds(rising: float, falling: float, limits: HoistLimits) -> dict[str, floa
     return {"max_acceleration": rising, "min_acceleration": -falling, "max_jerk": limits.jerk}
 
 
-@settings(max_examples=200, deadline=None, print_blob=True)
+@settings(max_examples=80, deadline=None, print_blob=True)
 @given(hoist_limits(), magnitude(1e-2, 1e3))
 def test_between_the_creep_speeds_nothing_is_faster(limits: HoistLimits, room: float) -> None:
     trip = plan_trip(limits, creeping_travel(limits) + room)
@@ -195,7 +195,7 @@ def test_between_the_creep_speeds_nothing_is_faster(limits: HoistLimits, room: f
     assert ours == pytest.approx(theirs, rel=1e-9)
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(hoist_limits(), st.floats(0.001, 0.999))
 def test_below_creep_speed_nothing_is_faster(limits: HoistLimits, share: float) -> None:
     distance = creeping_travel(limits) * share
@@ -208,7 +208,7 @@ def test_below_creep_speed_nothing_is_faster(limits: HoistLimits, share: float) 
     assert plan_trip(limits, distance).duration == pytest.approx(theirs, rel=1e-9)
 
 
-@settings(max_examples=200, deadline=None, print_blob=True)
+@settings(max_examples=80, deadline=None, print_blob=True)
 @given(trips(), st.floats(0.0, 1.0))
 def test_stop_from_anywhere_in_a_trip(trip: Trip, share: float) -> None:
     limits = trip.limits
@@ -229,7 +229,7 @@ def test_stop_from_anywhere_in_a_trip(trip: Trip, share: float) -> None:
     assert all(phase.duration >= 0 for phase in stop.phases)
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(hoist_limits(), st.floats(0.0, 1.0), st.floats(-1.0, 1.0))
 def test_no_stop_is_faster_and_its_peak_is_reached(limits: HoistLimits, speed: float, share: float) -> None:
     """From any speed and acceleration that a limit on jerk can still bring to rest without reversing."""
@@ -331,7 +331,7 @@ def test_travel_that_is_named_as_the_way_out_is_one(unit: str) -> None:
         derive(parse_job(text.replace(f"travel = {20 * scale}", f"travel = {23.64 * scale:g}"), "job.toml"))
 
 
-@settings(max_examples=150, deadline=None, print_blob=True)
+@settings(max_examples=50, deadline=None, print_blob=True)
 @given(trips())
 def test_ten_samples_in_the_shortest_phase_keep_the_loop_over_travel_calm(trip: Trip) -> None:
     """g = T a/v stays below 0.071, far from the 1/4 where the loop begins to swing."""
@@ -355,7 +355,7 @@ def test_no_job_whose_envelope_is_not_above_the_setpoint(values: dict[str, float
     assert "too low" in refusal(**values)
 
 
-@settings(max_examples=60, deadline=None, print_blob=True)
+@settings(max_examples=25, deadline=None, print_blob=True)
 @given(
     st.floats(1.0, 1.3),
     st.floats(1.0, 1.3),
