@@ -303,9 +303,10 @@ def _verdict_table(verdict: Verdict) -> terminal.Table:
 
 
 def _check_row(target: str, check: Check) -> tuple[str, ...]:
-    bound = f"{'>=' if check.at_least else '<='} {check.bound:.4g}"
+    # + 0.0 turns -0.0 into 0.0
+    bound = f"{'>=' if check.at_least else '<='} {check.bound + 0.0:.4g}"
     result = terminal.OK if check.ok else terminal.FAILED
-    return (target, check.name, f"{check.value:.4g}", bound, check.unit, result)
+    return (target, check.name, f"{check.value + 0.0:.4g}", bound, check.unit, result)
 
 
 def _failures(verdict: Verdict) -> str:
@@ -366,7 +367,8 @@ def lint(files: tuple[Path, ...], target: str | None) -> None:
         excerpt = finding.location.excerpt()
         terminal.say(f"{finding}\n{excerpt}" if excerpt else str(finding))
     errors = sum(finding.severity == "error" for finding in findings)
-    terminal.tell(f"{len(files)} files: {errors} errors, {len(findings) - errors} warnings")
+    counts = (len(files), "file"), (errors, "error"), (len(findings) - errors, "warning")
+    terminal.tell(", ".join(f"{count} {word}{'' if count == 1 else 's'}" for count, word in counts))
     if errors:
         raise click.exceptions.Exit(FAILED)
 

@@ -27,6 +27,19 @@ from plcgen.trajectory import Trajectory
 
 JITTER = 0.1
 FILL_PATTERN = 0x7F
+TRACE_COLUMNS = (
+    "time",
+    "plantTravel",
+    "actualTravel",
+    "velocitySetpoint",
+    "limitedSetpoint",
+    "acceleration",
+    "envelopeVelocity",
+    "distanceToGo",
+    "phase",
+    "inPosition",
+    "status",
+)
 
 
 @dataclass(frozen=True)
@@ -56,10 +69,9 @@ def verify_hoist(
 
 
 def nominal_trace(subject: Subject) -> Trajectory:
-    """Inputs and outputs of the trip upwards with a perfect encoder."""
-    run = full_trip(subject.bench, "up", up=True)
-    columns = [name for name in run.trace.columns if not name.startswith("stat")]
-    return Trajectory({name: run.trace[name] for name in columns})
+    """The trip upwards with a perfect encoder."""
+    trace = full_trip(subject.bench, "up", up=True).trace
+    return Trajectory({name: trace[name] for name in TRACE_COLUMNS})
 
 
 def _checks(bench: Bench, progress: Callable[[str], None]) -> Iterator[Check]:
@@ -207,7 +219,7 @@ def _wrong_flags(run: Run) -> int:
 def _limited(run: Run) -> tuple[float, float]:
     setpoint = run.trace["velocitySetpoint"].astype(np.float64)
     clamped = np.sign(setpoint) * np.minimum(np.abs(setpoint), run.trace["envelopeVelocity"])
-    return _worst(np.abs(run.trace["limitedSetpoint"] - clamped), 0.0 * setpoint)
+    return _worst(np.abs(run.trace["limitedSetpoint"] - clamped), 0.0)
 
 
 def _velocity_limit(model: HoistModel, run: Run) -> tuple[float, float]:

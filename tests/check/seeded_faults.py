@@ -1,0 +1,155 @@
+"""Seeded faults: every single-token change of a source that could be somebody's slip of the finger.
+
+Used by test_seeded_faults.py; run as a program it tries all of them and lists the survivors:
+    python tests/check/seeded_faults.py [--target s7-300-scl]
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import cache, partial
+from itertools import pairwise
+
+from plcgen import pipeline
+from plcgen.errors import PlcgenError
+from plcgen.job import parse_job
+from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
+from plcgen.plc.source import decode_source
+
+JOB = """
+name = "Small"
+method = "hoist"
+targets = ["s7-300-scl", "tia-scl"]
+length_unit = "m"
+sample_period = 0.02
+
+[hoist]
+travel = 16.0
+max_velocity = 2.0
+acceleration = 0.8
+deceleration = 0.7
+jerk = 1.0
+creep_velocity = 0.4
+creep_acceleration = 0.5
+creep_out = 0.3
+creep_in = 0.4
+"""
+
+SWAPS = {
+    "+": ["-"],
+    "-": ["+"],
+    "*": ["/"],
+    "/": ["*"],
+    "<": [">", "<="],
+    ">": ["<", ">="],
+    "<=": [">=", "<"],
+    ">=": ["<=", ">"],
+    "=": ["<>"],
+    "<>": ["="],
+    "AND": ["OR"],
+    "OR": ["AND"],
+    "NOT": [""],
+    "TRUE": ["FALSE"],
+    "FALSE": ["TRUE"],
+}
+
+
+@dataclass(frozen=True)
+class SeededFault:
+    """Replace text[start:end] by `replacement`."""
+
+    start: int
+    end: int
+    replacement: str
+    line: int
+    was: str
+
+    def __str__(self) -> str:
+        return f"line {self.line}: {self.was.strip()!r} -> {self.replacement!r}"
+
+    def apply(self, text: str) -> str:
+        return text[: self.start] + self.replacement + text[self.end :]
+
+
+@cache
+def plan() -> pipeline.Plan:
+    return pipeline.prepare(parse_job(JOB, "small.toml"))
+
+
+@cache
+def sound_files(target: str) -> dict[str, bytes]:
+    return pipeline.sources(plan(), target)
+
+
+def source_text(target: str) -> str:
+    return decode_source("Small.scl", sound_files(target)["Small.scl"]).text
+
+
+def all_faults(target: str) -> list[SeededFault]:
+    """Every fault, in the order of the text."""
+    source = decode_source("Small.scl", sound_files(target)["Small.scl"])
+    found = [token for token in tokens(source, SCL_CLASSIC) if token.kind is not TokenKind.END]
+    faults = [*_swapped(source.text, found), *_dropped(source.text)]
+    return sorted(faults, key=lambda fault: (fault.start, fault.replacement))
+
+
+def _swapped(text: str, found: list[Token]) -> Iterator[SeededFault]:
+    for before, token in pairwise(found):
+        line = text.count("\n", 0, token.span.start) + 1
+        if before.text.upper() in ("TITLE", "VERSION"):
+            continue
+        for replacement in _replacements(text, token):
+            yield SeededFault(token.span.start, token.span.end, replacement, line, token.text)
+
+
+def _replacements(text: str, token: Token) -> list[str]:
+    row = text[text.rfind("\n", 0, token.span.start) + 1 : text.find("\n", token.span.end)]
+    if re.match(r"\s*(TITLE|VERSION|AUTHOR|FAMILY|NAME)\b", row):
+        return []
+    if re.fullmatch(r"\d+\.\d+(E[+-]?\d+)?", token.text):
+        value = float(token.text)
+        return [f"{value * 1.01:.9f}", f"{value * 0.99:.9f}"] if value else ["0.001"]
+    if re.fullmatch(r"\d+", token.text):
+        return [str(int(token.text) + 1)]
+    if token.text.upper().startswith("W#16#"):
+        return [f"W#16#{(int(token.text[5:], 16) + 1) % 65536:04X}"]
+    return SWAPS.get(token.text.upper(), [])
+
+
+def _dropped(text: str) -> Iterator[SeededFault]:
+    """Single-line assignments, left out."""
+    for match in re.finditer(r"^ +#?\w+ := [^;\n]*;", text, re.MULTILINE):
+        line = text.count("\n", 0, match.start()) + 1
+        yield SeededFault(match.start(), match.end(), "", line, match.group())
+
+
+def survives(target: str, fault: SeededFault) -> bool:
+    """True when verification finds nothing wrong with the faulty source."""
+    text = fault.apply(source_text(target))
+    files = {**sound_files(target), "Small.scl": text.encode("utf-8")}
+    try:
+        return pipeline.verify(plan(), target, files, fail_fast=True).ok
+    except PlcgenError:
+        return False
+
+
+def survivors(target: str, faults: list[SeededFault]) -> list[SeededFault]:
+    """Those that nothing caught; in a pool of processes."""
+    with ProcessPoolExecutor() as pool:
+        verdicts = pool.map(partial(survives, target), faults, chunksize=4)
+        return [fault for fault, alive in zip(faults, verdicts, strict=True) if alive]
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--target", default="s7-300-scl")
+    target = parser.parse_args().target
+    faults = all_faults(target)
+    print(len(faults), "faults")
+    for fault in survivors(target, faults):
+        row = source_text(target).splitlines()[fault.line - 1].strip()
+        print(f"{fault}   |   {row}", flush=True)
