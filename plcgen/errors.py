@@ -53,5 +53,5 @@ class SourceError(PlcgenError):
     """PLC source text that cannot be parsed, typed, lowered or imported."""
 
 
-class Fault(PlcgenError):
+class Fault(PlcgenError):  # noqa: N818 - the field's own word
     """An event in a run that stops a real CPU: array bound, watchdog, missing block, nesting too deep."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plcgen import targets
 from plcgen.check.hoist import Subject, nominal_trace, verify_hoist
 from plcgen.check.hoist_model import HoistModel, TripModel
 from plcgen.check.verdict import TargetVerdict
@@ -22,7 +23,6 @@ from plcgen.profile.hoist import Leg, Trip, creeping_travel, derive, plan_stop, 
 from plcgen.profile.hoist_constants import hoist_constants, position_window, transition_table
 from plcgen.render.environment import render
 from plcgen.render.hoist import block_names, hoist_context, output_files
-from plcgen.targets import TARGETS, target as target_row
 from plcgen.trajectory import Trajectory
 
 DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
@@ -62,7 +62,7 @@ def derivation(plan: Plan) -> Derivation:
 
 def sources(plan: Plan, target: str, verified: bool = True) -> dict[str, bytes]:
     """Files of a target by name, encoded as its engineering tool reads them."""
-    row = target_row(target)
+    row = targets.target(target)
     context = hoist_context(plan.job, plan.trip, target, verified)
     files = {}
     for file in output_files(plan.job, target):
@@ -74,11 +74,13 @@ def sources(plan: Plan, target: str, verified: bool = True) -> dict[str, bytes]:
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
     """Parse and lower every source file of a target. Raises SourceError."""
-    row = TARGETS[target]
+    row = targets.target(target)
     dialect = DIALECTS[row.dialect]
     blocks: list[Block] = []
     # The blocks come before the example that calls them.
-    for name in sorted((name for name in files if name.endswith(row.suffix)), key=lambda name: ("_example" in name, name)):
+    for name in sorted(
+        (name for name in files if name.endswith(row.suffix)), key=lambda name: ("_example" in name, name)
+    ):
         blocks.extend(parse(decode_source(name, files[name]), dialect))
     return lower(blocks, dialect)
 

@@ -17,7 +17,7 @@ from plcgen.check.hoist_model import (
     STOP_RAMP,
     HoistModel,
 )
-from plcgen.check.rig import Clock, Encoder, Rig
+from plcgen.check.rig import PERFECT, Clock, Encoder, Rig
 from plcgen.plc.core import Program
 from plcgen.trajectory import Trajectory
 
@@ -31,9 +31,7 @@ class Bench:
     instance: str
     model: HoistModel
 
-    def rig(
-        self, travel: float, clock: Clock | None = None, encoder: Encoder = Encoder(), temp_fill: int = 0
-    ) -> Rig:
+    def rig(self, travel: float, clock: Clock | None = None, encoder: Encoder = PERFECT, temp_fill: int = 0) -> Rig:
         """A cold CPU with the hoist at rest at a place; the block is called with the period of the clock."""
         clock = clock or Clock(self.model.sample_period)
         rig = Rig(self.program, self.block, self.instance, travel, clock, encoder, temp_fill)
@@ -56,7 +54,10 @@ class Bench:
 
 @dataclass
 class Run:
-    """One recorded run; `nominal` ones see the travel as it is, counted from the lower stop. `trips` and `stops` name the first and the last row of each, and the direction."""
+    """One recorded run; `nominal` ones see the travel as it is, counted from the lower stop.
+
+    `trips` and `stops` hold the first row of each, the row behind its last, and whether it goes up.
+    """
 
     name: str
     encoder: Encoder
@@ -73,7 +74,7 @@ class Run:
     @property
     def is_exact(self) -> bool:
         """A perfect encoder, an interrupt on time, one trip from stop to stop."""
-        return self.encoder == Encoder() and not self.clock.jitter and len(self.trips) == 1
+        return self.encoder == PERFECT and not self.clock.jitter and len(self.trips) == 1
 
     def segments(self, spans: list[tuple[int, int, bool]]) -> list[Segment]:
         return [Segment(self.trace, *span) for span in spans]
@@ -92,7 +93,7 @@ def full_trip(
     bench: Bench,
     name: str,
     up: bool,
-    encoder: Encoder = Encoder(),
+    encoder: Encoder = PERFECT,
     clock: Clock | None = None,
     stops: tuple[float, float] | None = None,
     temp_fill: int = 0,
@@ -106,7 +107,7 @@ def full_trip(
     rig.set(enable=True)
     rig.scan()
     rig.set(directionUp=not up)
-    run = Run(name, encoder, clock, nominal=stops is None and encoder == Encoder())
+    run = Run(name, encoder, clock, nominal=stops is None and encoder == PERFECT)
     run.complete = rig.run(bench.longest_trip, at_rest)
     run.trips.append((1, rig.scans, up))
     rig.set(directionUp=up)
@@ -115,7 +116,7 @@ def full_trip(
 
 
 def interrupted_trip(bench: Bench, name: str, up: bool, places: Sequence[float]) -> Run:
-    """A trip with a stop request at each place of travel, in turn by `stop` and by `enable`, and a fresh start after it."""
+    """A trip with a stop request at each place of travel, by `stop` and by `enable` in turn, each with a fresh start."""
     travel = bench.model.limits.travel
     clock = Clock(bench.model.sample_period)
     rig = bench.rig(0.0 if up else travel, clock)

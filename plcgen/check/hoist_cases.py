@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from math import inf, nan
 
 import numpy as np
@@ -274,7 +275,9 @@ def _restarts(bench: Bench) -> Iterator[str]:
 
 def _bumpless(model: HoistModel, segment: Segment, speed: float) -> str:
     expected = stop_from(model, segment, speed, 0.0)
-    worst = float(np.max(np.abs(segment.sign * segment.column("velocitySetpoint") - expected.velocity) - expected.velocity_bound))
+    worst = float(
+        np.max(np.abs(segment.sign * segment.column("velocitySetpoint") - expected.velocity) - expected.velocity_bound)
+    )
     return f"restart at {speed:g}: setpoint {worst:.3g} beyond its bound" if worst > 0 else ""
 
 
@@ -309,7 +312,13 @@ def envelope_bound(model: HoistModel, segment: Segment, expected: np.ndarray) ->
     guard = model.limits.envelope
     reaction = guard.brake_deceleration * guard.reaction_time
     scale = max(1.0, guard.tracking_factor)
-    return LAW_ERROR * (scale * expected + 2 * reaction) + scale * model.steepest_gain * travel_resolution(model, segment)
+    return LAW_ERROR * (scale * expected + 2 * reaction) + scale * model.steepest_gain * travel_resolution(
+        model, segment
+    )
+
+
+def _reached(phase: int, rig: Rig) -> bool:
+    return rig.get("phase") >= phase
 
 
 def _moving(bench: Bench) -> Iterator[Check]:
@@ -320,7 +329,7 @@ def _moving(bench: Bench) -> Iterator[Check]:
         rig.set(directionUp=True)
         rig.scan()
         rig.set(enable=True)
-        if not rig.run(bench.longest_trip, lambda rig, phase=phase: rig.get("phase") >= phase):
+        if not rig.run(bench.longest_trip, partial(_reached, phase)):
             answers.append(f"phase {phase} is never reached")
             continue
         rig.run(5)

@@ -15,8 +15,8 @@ import numpy as np
 
 from plcgen.check.hoist_model import (
     CREEP_OUT,
-    START_RAMP,
     STANDSTILL,
+    START_RAMP,
     STOP_RAMP,
     STOPPING,
     HoistModel,
@@ -56,7 +56,8 @@ class Segment:
         return slice(self.first, self.last)
 
     def column(self, name: str) -> Samples:
-        return self.trace[name][self.rows].astype(np.float64)
+        values: Samples = self.trace[name][self.rows].astype(np.float64)
+        return values
 
     @property
     def sign(self) -> float:

@@ -28,6 +28,9 @@ class Encoder:
         return floor(travel / self.quantum) * self.quantum if self.quantum else travel
 
 
+PERFECT = Encoder()
+
+
 @dataclass(frozen=True)
 class Clock:
     """When the cyclic interrupt comes: each call up to `jitter` periods early or late, without drift."""
@@ -72,7 +75,7 @@ class Rig:
         instance: str,
         travel: float,
         clock: Clock,
-        encoder: Encoder = Encoder(),
+        encoder: Encoder = PERFECT,
         temp_fill: int = 0,
     ) -> None:
         self.machine = Machine(program, temp_fill)

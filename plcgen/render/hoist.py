@@ -73,9 +73,7 @@ def block_names(job: Job, target: str) -> BlockNames:
     """Classic sources name blocks by number, so that they compile without a symbol table; TIA sources by name."""
     blocks = job.blocks
     if target == "s7-300-scl":
-        return BlockNames(
-            f"FB{blocks.fb}", f"DB{blocks.db}", f"FC{blocks.fc}", f"FC{blocks.fc + 1}", "OB100", "OB35"
-        )
+        return BlockNames(f"FB{blocks.fb}", f"DB{blocks.db}", f"FC{blocks.fc}", f"FC{blocks.fc + 1}", "OB100", "OB35")
     symbols = (blocks.fb_name, blocks.db_name, f"{job.name}_Velocity", f"{job.name}_Travel")
     calls = (f"{job.name}_Restart", f"{job.name}_Cyclic")
     return BlockNames(*(f'"{symbol}"' for symbol in symbols + calls))

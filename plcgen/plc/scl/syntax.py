@@ -290,7 +290,7 @@ InitialValue = Literal | Variable | Call | Unary | Binary | Address | Repetition
 
 @dataclass(frozen=True)
 class Declaration:
-    """One declared name; `a, b : INT` gives two. `view_of` is the AT variable. `attributes` of `{ }` behind the name."""
+    """One declared name; `a, b : INT` gives two. `view_of` is the AT variable; `attributes` follow in `{ }`."""
 
     span: Span
     name: str

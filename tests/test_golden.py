@@ -1,0 +1,195 @@
+"""Golden cases: diff, update only after verification, thinning of traces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plcgen import golden, pipeline
+from plcgen.check.verdict import Check, TargetVerdict
+from plcgen.errors import PlcgenError
+from plcgen.golden import check_case, check_golden, stored_text, thinned, unified
+from plcgen.job import Job
+from plcgen.trajectory import Trajectory
+
+EXAMPLE = (Path(__file__).parents[1] / "templates" / "jobs" / "hoist.toml").read_bytes()
+GOOD = Check("stop_error", 0.0002, 0.001, "m")
+BAD = Check("stop_error", 0.002, 0.001, "m", detail="up, encoder late")
+
+
+def trip(rows: int = 3) -> Trajectory:
+    return Trajectory({"time": np.arange(rows) * 0.01, "phase": np.zeros(rows, dtype=np.int16)})
+
+
+@pytest.fixture
+def fake(monkeypatch: pytest.MonkeyPatch) -> dict[str, bytes]:
+    """A pipeline that takes no time: the sources of every target, which a test may change, and a good verdict."""
+    sources = {"a.scl": b"x := 1;\r\ny := 2;\r\n"}
+    monkeypatch.setattr(pipeline, "prepare", lambda job: job)
+    monkeypatch.setattr(pipeline, "sources", lambda _plan, _target: dict(sources))
+    monkeypatch.setattr(pipeline, "reference", lambda _plan: trip())
+    monkeypatch.setattr(pipeline, "golden_trace", lambda _plan, _target, files: trip(len(files["a.scl"])))
+    verdict(monkeypatch, GOOD)
+    return sources
+
+
+def verdict(monkeypatch: pytest.MonkeyPatch, check: Check) -> None:
+    def verify(_plan: Job, target: str, _files: Mapping[str, bytes]) -> TargetVerdict:
+        return TargetVerdict((check if target == "tia-scl" else GOOD,))
+
+    monkeypatch.setattr(pipeline, "verify", verify)
+
+
+@pytest.fixture
+def case(tmp_path: Path, fake: dict[str, bytes]) -> Path:
+    """A stored case that is as it should be."""
+    folder = tmp_path / "golden" / "main shaft \xe9"
+    folder.mkdir(parents=True)
+    (folder / "job.toml").write_bytes(EXAMPLE)
+    assert check_case(folder, update=True).ok
+    return folder
+
+
+STORED = ["reference.csv", "s7-300-scl/a.scl", "tia-scl/a.scl", "trace-s7-300-scl.csv", "trace-tia-scl.csv"]
+
+
+def test_update_writes_what_is_missing_and_says_so(tmp_path: Path, fake: dict[str, bytes]) -> None:
+    (tmp_path / "job.toml").write_bytes(EXAMPLE)
+    missing = check_case(tmp_path)
+    assert sorted(missing.findings) == [
+        f"{tmp_path / name}: is missing; plcgen check --update writes it" for name in STORED
+    ]
+    assert sorted(check_case(tmp_path, update=True).updated) == [str(tmp_path / name) for name in STORED]
+    assert check_case(tmp_path) == golden.CaseReport(tmp_path.name)
+    assert check_case(tmp_path, update=True).updated == ()
+
+
+def test_difference_of_a_source(case: Path, fake: dict[str, bytes]) -> None:
+    fake["a.scl"] = b"x := 1;\r\ny := 3;\r\n"
+    (case / "s7-300-scl" / "a.scl").write_bytes(fake["a.scl"])
+    path = case / "tia-scl" / "a.scl"
+    assert check_case(case).findings == (
+        f"--- {path} (stored)\n+++ {path} (generated)\n@@ -1,2 +1,2 @@\n x := 1;\n-y := 2;\n+y := 3;",
+    )
+
+
+def test_difference_of_a_trace(case: Path) -> None:
+    path = case / "trace-tia-scl.csv"
+    stored = path.read_text().replace("0.02,0", "0.02,1")
+    path.write_text(stored)
+    (finding,) = check_case(case).findings
+    assert f"--- {path} (stored)" in finding
+    assert "-0.02,1\n+0.02,0" in finding
+
+
+def test_long_difference_of_a_trace_is_cut(case: Path) -> None:
+    (case / "trace-tia-scl.csv").write_text("x\n" * 100)
+    (finding,) = check_case(case).findings
+    assert finding.count("\n") == golden.MAX_TRACE_DIFF
+    assert finding.endswith("... 82 more lines")
+
+
+def test_line_ends_of_a_csv_do_not_count(case: Path) -> None:
+    path = case / "reference.csv"
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert check_case(case).ok
+
+
+def test_files_that_are_not_generated(case: Path) -> None:
+    extra = case / "tia-scl" / "old.scl"
+    extra.write_bytes(b"")
+    (case / ".gitattributes").write_bytes(b"")
+    for report in (check_case(case), check_case(case, update=True)):
+        assert report.findings == (f"{extra}: is not generated; remove it",)
+    assert extra.exists()
+
+
+def test_no_update_without_verification(case: Path, fake: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
+    fake["a.scl"] = b"broken\r\n"
+    verdict(monkeypatch, BAD)
+    before = {path: path.read_bytes() for path in case.rglob("*") if path.is_file()}
+    report = check_case(case, update=True)
+    assert report.updated == ()
+    assert report.findings[0] == (
+        f"{case / 'tia-scl'}: stop_error: 0.002 m is above the bound 0.001 m (up, encoder late)"
+    )
+    assert {path: path.read_bytes() for path in case.rglob("*") if path.is_file()} == before
+
+
+def test_deviation_from_below() -> None:
+    check = Check("envelope_margin", -0.1, 0.0, "m/s", at_least=True)
+    assert golden.deviation(check) == "envelope_margin: -0.1 m/s is below the bound 0 m/s"
+
+
+def test_bad_job_is_the_error_of_its_case(case: Path) -> None:
+    (case / "job.toml").write_text("name = 1")
+    report = check_case(case)
+    assert not report.ok
+    assert report.error.startswith(f"{case / 'job.toml'}:1:")
+
+
+def test_cases_of_a_folder(case: Path) -> None:
+    done: list[str] = []
+    assert [report.case for report in check_golden(case.parent, False, done.append)] == ["main shaft \xe9"]
+    assert done == ["1 of 1 cases checked"]
+
+
+def test_cases_in_processes(tmp_path: Path) -> None:
+    for name in ("b", "a"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "job.toml").write_text("name = 1")
+    reports = list(golden._in_processes(golden.find_cases(tmp_path), False, 2))
+    assert [(report.case, bool(report.error)) for report in reports] == [("a", True), ("b", True)]
+
+
+def test_folder_without_cases(tmp_path: Path) -> None:
+    with pytest.raises(PlcgenError) as caught:
+        golden.find_cases(tmp_path)
+    assert str(caught.value) == f"{tmp_path}: no case in it; a case is a folder with a job.toml"
+    with pytest.raises(PlcgenError) as caught:
+        golden.find_cases(tmp_path / "x")
+    assert str(caught.value) == f"{tmp_path / 'x'}: no such folder; plcgen check takes the folder of the golden cases"
+
+
+# ---------------------------------------------------------------------------------------------------------- traces
+
+
+def test_thinned_trace_keeps_changes_of_phase_and_the_last_row() -> None:
+    phase = np.zeros(7812, dtype=np.int16)
+    phase[1234:] = 1
+    phase[5005:] = 2
+    full = Trajectory({"time": np.arange(7812.0), "phase": phase})
+    times = thinned(full)["time"].tolist()
+    assert set(times) == {*map(float, range(0, 7812, 8)), 1233.0, 1234.0, 5004.0, 5005.0, 7811.0}
+    assert len(times) <= golden.MAX_ROWS + 5
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2, 999, 1000])
+def test_short_trace_is_stored_whole(rows: int) -> None:
+    assert len(thinned(trip(rows))) == rows
+
+
+def test_first_line_stands_for_all_rows() -> None:
+    full = trip(3)
+    assert stored_text(full) == f"# 3 rows, sha256 {full.sha256()}\ntime,phase\n0,0\n0.01,0\n0.02,0\n"
+
+
+# ----------------------------------------------------------------------------------------------------- differences
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "body"),
+    [
+        (b"a\r\nb\r\n", b"a\r\nc\r\n", [" a", "-b", "+c"]),
+        (b"a\n", b"a\r\n", ["-a", "+a\\r"]),
+        (b"a\r\nb\n", b"a\r\nb\r\n", [" a\\r", "-b", "+b\\r"]),
+        (b"a\r\n", b"\xef\xbb\xbfa\r\n", ["-a", "+\\ufeffa"]),
+        (b"a\r\nb", b"a\r\nb\r\n", [" a", " b", "-\\ No newline at end of file"]),
+        (b"\xe9\n", b"\xc3\xa9\n", ["-\xe9", "+\xc3\xa9"]),
+    ],
+)
+def test_unified(old: bytes, new: bytes, body: list[str]) -> None:
+    assert list(unified(old, new, "f"))[3:] == body
