@@ -46,6 +46,7 @@ def verdict(monkeypatch: pytest.MonkeyPatch, check: Check) -> None:
 @pytest.fixture
 def case(tmp_path: Path, fake: dict[str, bytes]) -> Path:
     """A stored case that is as it should be."""
+    assert fake
     folder = tmp_path / "golden" / "main shaft \xe9"
     folder.mkdir(parents=True)
     (folder / "job.toml").write_bytes(EXAMPLE)
@@ -56,7 +57,8 @@ def case(tmp_path: Path, fake: dict[str, bytes]) -> Path:
 STORED = ["reference.csv", "s7-300-scl/a.scl", "tia-scl/a.scl", "trace-s7-300-scl.csv", "trace-tia-scl.csv"]
 
 
-def test_update_writes_what_is_missing_and_says_so(tmp_path: Path, fake: dict[str, bytes]) -> None:
+@pytest.mark.usefixtures("fake")
+def test_update_writes_what_is_missing_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "job.toml").write_bytes(EXAMPLE)
     missing = check_case(tmp_path)
     assert sorted(missing.findings) == [
@@ -89,7 +91,8 @@ def test_long_difference_of_a_trace_is_cut(case: Path) -> None:
     (case / "trace-tia-scl.csv").write_text("x\n" * 100)
     (finding,) = check_case(case).findings
     assert finding.count("\n") == golden.MAX_TRACE_DIFF
-    assert finding.endswith("... 82 more lines")
+    # Three lines of heading, 100 stored lines, and 20 that are generated: digest, header, a row for each byte.
+    assert finding.endswith(f"... {3 + 100 + 20 - golden.MAX_TRACE_DIFF} more lines")
 
 
 def test_line_ends_of_a_csv_do_not_count(case: Path) -> None:

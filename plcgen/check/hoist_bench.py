@@ -116,7 +116,7 @@ def full_trip(
 
 
 def interrupted_trip(bench: Bench, name: str, up: bool, places: Sequence[float]) -> Run:
-    """A trip with a stop request at each place of travel, by `stop` and by `enable` in turn, each with a fresh start."""
+    """A trip with a stop request at each place, by `stop` and by `enable` in turn, each with a fresh start."""
     travel = bench.model.limits.travel
     clock = Clock(bench.model.sample_period)
     rig = bench.rig(0.0 if up else travel, clock)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plcgen.check.hoist_model import (
     CREEP_OUT,
@@ -55,19 +56,18 @@ class Segment:
     def rows(self) -> slice:
         return slice(self.first, self.last)
 
-    def column(self, name: str) -> Samples:
-        values: Samples = self.trace[name][self.rows].astype(np.float64)
-        return values
+    def column(self, name: str) -> NDArray[np.float64]:
+        return np.asarray(self.trace[name][self.rows], dtype=np.float64)
 
     @property
     def sign(self) -> float:
         return 1.0 if self.up else -1.0
 
     @cached_property
-    def travelled(self) -> Samples:
+    def travelled(self) -> NDArray[np.float64]:
         """From the start of the segment, as the block measured it: exact, since REAL differences fit float64."""
         travel = self.column("actualTravel")
-        return self.sign * (travel - travel[0])
+        return self.sign * (travel - travel[:1])
 
     @cached_property
     def to_go(self) -> Samples:
