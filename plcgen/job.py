@@ -102,8 +102,8 @@ def _context(data: dict[str, Any]) -> Context:
 
 def _first(problems: list[Problem]) -> JobError:
     """The first problem of the file as an error that says how many there are."""
-    first, *others = sorted(problems, key=lambda problem: (problem.location.line, problem.location.column))
-    more = f" ({len(others)} more below)" if others else ""
+    first, *others = sorted(problems, key=lambda problem: problem.order)
+    more = f" (the first of {1 + len(others)} problems)" if others else ""
     return JobError(first.message + more, first.location)
 
 

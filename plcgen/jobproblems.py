@@ -27,6 +27,12 @@ class Problem:
 
     location: Location
     message: str
+    is_absence: bool = False
+
+    @property
+    def order(self) -> tuple[bool, int, int]:
+        """What is written comes first: a key that seems to be missing may be one that is written wrong."""
+        return self.is_absence, self.location.line, self.location.column
 
     @classmethod
     def at_value(cls, text: TomlFile, path: KeyPath, words: str) -> Problem:
@@ -97,7 +103,7 @@ def _missing(text: TomlFile, path: KeyPath, tables: Tables) -> Problem:
     else:
         example = json.dumps(_example(tables[path[:-1]].model_fields[str(path[-1])], text.data.get("length_unit")))
         words = f"{owner} lacks {path[-1]}; add a line such as {path[-1]} = {example}"
-    return Problem(text.key_location(path), words)
+    return Problem(text.key_location(path), words, is_absence=True)
 
 
 def _example(field: FieldInfo, length_unit: Any) -> Any:

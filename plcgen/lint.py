@@ -13,7 +13,7 @@ from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect, detect_dialect
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block
-from plcgen.plc.source import SourceText, read_source
+from plcgen.plc.source import SourceText, Span, read_source
 from plcgen.targets import TARGETS
 
 DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
@@ -97,8 +97,7 @@ def _emptied(block: Block) -> Block:
 def _holds(block: Block, error: SourceError) -> bool:
     if error.location is None or error.location.file != block.source.name:
         return False
-    first = block.source.location(block.span).line
-    last = block.source.location(block.span._replace(start=block.span.end)).line
+    first, last = (block.source.location(Span(place, place)).line for place in block.extent)
     return first <= error.location.line <= last
 
 

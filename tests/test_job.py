@@ -153,11 +153,21 @@ def test_caret_spans_the_value() -> None:
 
 def test_first_problem_of_the_file_comes_first() -> None:
     text = SHORT.replace("= 500\n", "= nan\n").replace('"tia-scl"', '"tia"')
-    assert refused(text).startswith('job.toml:3:12: targets[0] = "tia" is unknown; write "tia-scl" (2 more below)\n')
+    assert refused(text).startswith(
+        'job.toml:3:12: targets[0] = "tia" is unknown; write "tia-scl" (the first of 3 problems)\n'
+    )
+
+
+def test_unknown_key_comes_before_what_it_leaves_missing() -> None:
+    unknown = refused(SHORT.replace("hoist.jerk", "hoist.ruck"))
+    assert unknown.startswith("job.toml:9:1: unknown key hoist.ruck; known here: travel, max_velocity")
 
 
 def test_empty_job() -> None:
-    assert refused("") == 'job.toml:1:1: the job lacks name; add a line such as name = "MainShaft" (5 more below)'
+    assert (
+        refused("")
+        == 'job.toml:1:1: the job lacks name; add a line such as name = "MainShaft" (the first of 6 problems)'
+    )
     tables = refused(SHORT.split("hoist.")[0])
     assert tables == "job.toml:1:1: the job lacks the table [hoist]; `plcgen new hoist` writes an example"
 

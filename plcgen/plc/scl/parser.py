@@ -42,7 +42,8 @@ def _block(tokens: Cursor) -> Block:
     name = block_name(tokens)
     span = tokens.span_from(keyword)
     kind, quoted = BlockKind(keyword.word), name.kind is TokenKind.GLOBAL
-    return parse_kind(tokens, keyword, Block(span, kind, name.name, quoted, tokens.source))
+    block = parse_kind(tokens, keyword, Block(span, span, kind, name.name, quoted, tokens.source))
+    return replace(block, extent=tokens.span_from(keyword))
 
 
 def _code_block(tokens: Cursor, keyword: Token, block: Block) -> Block:

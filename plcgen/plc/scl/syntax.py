@@ -353,11 +353,13 @@ class Header:
 class Block:
     """One block. `name` without quotes; `quoted` tells how it was spelt.
 
-    `return_type` of an FC (None = VOID); `instance_of` of an instance DB (FB or UDT name); `sections` of code blocks,
-    `structure` of a shared DB or UDT; `body` statements (for a DB the assignments after BEGIN).
+    `span` is the keyword and the name, `extent` the whole block to its last word. `return_type` of an FC (None =
+    VOID); `instance_of` of an instance DB (FB or UDT name); `sections` of code blocks, `structure` of a shared DB or
+    UDT; `body` statements (for a DB the assignments after BEGIN).
     """
 
     span: Span
+    extent: Span
     kind: BlockKind
     name: str
     quoted: bool
