@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import unified_diff
 from pathlib import Path
 
 import numpy as np
 
-from plcgen.check.verdict import Check
+from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.errors import PlcgenError
 from plcgen.files import write_files
 from plcgen.job import read_job
@@ -29,12 +29,16 @@ NEVER_STORED = frozenset({"Thumbs.db", "desktop.ini"})
 
 @dataclass(frozen=True)
 class CaseReport:
-    """What was found in one case: findings that make the check fail, files rewritten, or an error of its input."""
+    """What was found in one case: findings that make the check fail, files rewritten, or an error of its input.
+
+    `verdicts` has the figures of each target.
+    """
 
     case: str
     findings: tuple[str, ...] = ()
     updated: tuple[str, ...] = ()
     error: str = ""
+    verdicts: Mapping[str, TargetVerdict] = field(default_factory=dict)
 
     @property
     def ok(self) -> bool:
@@ -101,31 +105,52 @@ def check_case(folder: Path, update: bool = False) -> CaseReport:
 
 
 def _checked(folder: Path, update: bool) -> CaseReport:
-    files, deviations = _regenerate(folder)
+    files, verdicts, traces = _regenerate(folder)
+    deviations = (*_deviations(folder, verdicts), *disagreements(traces))
     differing = {name: data for name, data in files.items() if _stored(folder / name) != data}
     extra = tuple(f"{folder / name}: is not generated; remove it" for name in _extra(folder, files))
     if update and not deviations:
         write_files(folder, differing)
-        return CaseReport(folder.name, extra, tuple(str(folder / name) for name in differing))
+        return CaseReport(folder.name, extra, tuple(str(folder / name) for name in differing), verdicts=verdicts)
     differences = tuple(_difference(folder / name, data) for name, data in differing.items())
-    return CaseReport(folder.name, deviations + differences + extra)
+    return CaseReport(folder.name, deviations + differences + extra, verdicts=verdicts)
 
 
-def _regenerate(folder: Path) -> tuple[dict[str, bytes], tuple[str, ...]]:
-    """All files of a case by relative name, and what verification has against them."""
+def _regenerate(folder: Path) -> tuple[dict[str, bytes], dict[str, TargetVerdict], dict[str, Trajectory]]:
+    """All files of a case by relative name, and the verdict and the trace of each target."""
     from plcgen import pipeline
 
     job = read_job(folder / JOB)
     plan = pipeline.prepare(job)
     files = {"reference.csv": stored_text(pipeline.reference(plan)).encode()}
-    deviations: list[str] = []
+    verdicts: dict[str, TargetVerdict] = {}
+    traces: dict[str, Trajectory] = {}
     for target in job.targets:
         sources = pipeline.sources(plan, target)
-        verdict = pipeline.verify(plan, target, sources)
-        deviations += [f"{folder / target}: {deviation(check)}" for check in verdict.failed]
+        verdicts[target] = pipeline.verify(plan, target, sources)
         files |= {f"{target}/{name}": data for name, data in sources.items()}
-        files[f"trace-{target}.csv"] = stored_text(pipeline.golden_trace(plan, target, sources)).encode()
-    return files, tuple(deviations)
+        traces[target] = pipeline.golden_trace(plan, target, sources)
+        files[f"trace-{target}.csv"] = stored_text(traces[target]).encode()
+    return files, verdicts, traces
+
+
+def _deviations(folder: Path, verdicts: Mapping[str, TargetVerdict]) -> Iterator[str]:
+    for target, verdict in verdicts.items():
+        yield from (f"{folder / target}: {deviation(check)}" for check in verdict.failed)
+
+
+def disagreements(traces: Mapping[str, Trajectory]) -> Iterator[str]:
+    """Where a target's trace parts from that of the first; both compute in the same order, so every bit must agree."""
+    (first, reference), *others = traces.items()
+    for target, trace in others:
+        if len(trace) != len(reference):
+            yield f"{target} and {first} disagree: {len(trace)} rows and {len(reference)}"
+            continue
+        for name, column in reference.columns.items():
+            rows = np.flatnonzero(column != trace[name])
+            if len(rows):
+                row = rows[0]
+                yield f"{target} and {first} disagree: {name} is {trace[name][row]} and {column[row]} in row {row}"
 
 
 def deviation(check: Check) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,8 @@ from plcgen.golden import check_case, check_golden, stored_text, thinned, unifie
 from plcgen.job import Job
 from plcgen.trajectory import Trajectory
 
-EXAMPLE = (Path(__file__).parents[1] / "templates" / "jobs" / "hoist.toml").read_bytes()
+ROOT = Path(__file__).parents[1]
+EXAMPLE = (ROOT / "templates" / "jobs" / "hoist.toml").read_bytes()
 GOOD = Check("stop_error", 0.0002, 0.001, "m")
 BAD = Check("stop_error", 0.002, 0.001, "m", detail="up, encoder late")
 
@@ -65,7 +66,8 @@ def test_update_writes_what_is_missing_and_says_so(tmp_path: Path) -> None:
         f"{tmp_path / name}: is missing; plcgen check --update writes it" for name in STORED
     ]
     assert sorted(check_case(tmp_path, update=True).updated) == [str(tmp_path / name) for name in STORED]
-    assert check_case(tmp_path) == golden.CaseReport(tmp_path.name)
+    verdicts = dict.fromkeys(("s7-300-scl", "tia-scl"), TargetVerdict((GOOD,)))
+    assert check_case(tmp_path) == golden.CaseReport(tmp_path.name, verdicts=verdicts)
     assert check_case(tmp_path, update=True).updated == ()
 
 
@@ -122,6 +124,21 @@ def test_no_update_without_verification(case: Path, fake: dict[str, bytes], monk
     assert {path: path.read_bytes() for path in case.rglob("*") if path.is_file()} == before
 
 
+def test_targets_must_agree_in_every_bit() -> None:
+    other = Trajectory({"time": np.arange(3) * 0.01, "phase": np.array([0, 0, 1], dtype=np.int16)})
+    assert list(golden.disagreements({"a": trip(), "b": trip()})) == []
+    assert list(golden.disagreements({"a": trip(), "b": other})) == ["b and a disagree: phase is 1 and 0 in row 2"]
+    assert list(golden.disagreements({"a": trip(), "b": trip(2)})) == ["b and a disagree: 2 rows and 3"]
+
+
+@pytest.mark.usefixtures("fake")
+def test_no_update_while_targets_disagree(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pipeline, "golden_trace", lambda _plan, target, _files: trip(len(target)))
+    report = check_case(case, update=True)
+    assert report.updated == ()
+    assert report.findings[0] == "tia-scl and s7-300-scl disagree: 7 rows and 10"
+
+
 def test_deviation_from_below() -> None:
     check = Check("envelope_margin", -0.1, 0.0, "m/s", at_least=True)
     assert golden.deviation(check) == "envelope_margin: -0.1 m/s is below the bound 0 m/s"
@@ -155,6 +172,19 @@ def test_folder_without_cases(tmp_path: Path) -> None:
     with pytest.raises(PlcgenError) as caught:
         golden.find_cases(tmp_path / "x")
     assert str(caught.value) == f"{tmp_path / 'x'}: no such folder; plcgen check takes the folder of the golden cases"
+
+
+@pytest.mark.parametrize("folder", golden.find_cases(ROOT / "golden"), ids=lambda folder: folder.name)
+def test_stored_case_is_what_comes_out_today(folder: Path, record_property: Callable[[str, object], None]) -> None:
+    """The golden cases themselves; `-rP` shows the worst relative error of v(S) in 32 bits, which stays below 1e-6."""
+    report = check_case(folder)
+    assert report.findings == ()
+    assert report.error == ""
+    for target, verdict in report.verdicts.items():
+        (law,) = (check for check in verdict.checks if check.name == "law_error")
+        record_property(f"law_error {target}", law.value)
+        print(f"{folder.name}, {target}: law_error {law.value:.2g}")
+        assert law.value < 1e-6
 
 
 # ---------------------------------------------------------------------------------------------------------- traces
