@@ -204,12 +204,26 @@ class _Events:
         return _signed(pattern, minimum, bits)
 
 
-def library(report: Report, out_of_bounds: Callable[[int, int, int, int], NoReturn]) -> dict[str, Any]:
-    """All names that operator texts use. `out_of_bounds(index, low, high, site)` ends the run."""
+def library(
+    report: Report, out_of_bounds: Callable[[int, int, int, int], NoReturn], function_error: float = 0.0
+) -> dict[str, Any]:
+    """All names that operator texts use. `out_of_bounds(index, low, high, site)` ends the run.
+
+    `function_error` is the relative error of SIN, EXP, LN and the like, for CPUs that compute them less exactly.
+    """
     events = _Events(report)
     names = ("special", "over_zero", "wrap", "narrow", "quotient", "remainder", "to_integer")
     reporting = {name: getattr(events, name) for name in names}
-    return {**_PURE, **reporting, "out_of_bounds": out_of_bounds, "f": array("f", [0.0])}
+    blurred = {name: _blurred(_PURE[name], 1.0 + function_error) for name in _APPROXIMATE if function_error}
+    return {**_PURE, **blurred, **reporting, "out_of_bounds": out_of_bounds, "f": array("f", [0.0])}
+
+
+# What a CPU approximates; its square root is exact.
+_APPROXIMATE = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "expd", "ln", "log")
+
+
+def _blurred(function: Callable[[float], float], factor: float) -> Callable[[float], float]:
+    return lambda x: function(x) * factor
 
 
 def evaluate(operator: Operator, values: Sequence[Value]) -> Value:

@@ -50,10 +50,18 @@ class Site(NamedTuple):
 
 
 class Engine:
-    """Functions of a program over the given memory. `note(kind, site)` is told of arithmetic events."""
+    """Functions of a program over the given memory. `note(kind, site)` is told of arithmetic events.
+
+    See `arithmetic.library` for `function_error`.
+    """
 
     def __init__(
-        self, program: Program, memory: Mapping[str, bytearray], note: Callable[[str, Site], None], temp_fill: int = 0
+        self,
+        program: Program,
+        memory: Mapping[str, bytearray],
+        note: Callable[[str, Site], None],
+        temp_fill: int = 0,
+        function_error: float = 0.0,
     ) -> None:
         self.budget = [0]
         self._note = note
@@ -63,15 +71,17 @@ class Engine:
         names = _Names()
         areas = {area: names.of(area) for area in memory}
         functions = {name: names.of(name) for name in program.functions}
-        namespace = self._namespace(memory, areas)
+        namespace = self._namespace(memory, areas, function_error)
         for name, function in program.functions.items():
             translator = _Translator(function, functions, areas, self._sites, temp_fill)
             self._sources[name] = text = translator.text()
             exec(compile(text, f"<{name}>", "exec"), namespace)
             self._functions[name] = namespace[functions[name]]
 
-    def _namespace(self, memory: Mapping[str, bytearray], areas: Mapping[str, str]) -> dict[str, Any]:
-        namespace = library(lambda kind, site: self._note(kind, self._sites[site]), self._out_of_bounds)
+    def _namespace(
+        self, memory: Mapping[str, bytearray], areas: Mapping[str, str], function_error: float
+    ) -> dict[str, Any]:
+        namespace = library(lambda kind, site: self._note(kind, self._sites[site]), self._out_of_bounds, function_error)
         namespace.update(load_bit=_load_bit, store_bit=_store_bit, budget=self.budget, exhausted=self._exhausted)
         for row in ELEMENTARY.values():
             namespace.update({f"load_{row}": row.codec.unpack_from, f"store_{row}": row.codec.pack_into})

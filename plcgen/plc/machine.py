@@ -64,12 +64,13 @@ class _Link(NamedTuple):
 class Machine:
     """Fresh memory and a program linked to it. `temp_fill` is the byte that fills temporaries at each call.
 
-    `areas` are the global areas of memory, with their bytes.
+    `function_error` is the relative error of SIN, EXP, LN and the like. `areas` are the global areas of memory, with
+    their bytes.
     """
 
     areas: ClassVar[Mapping[str, int]] = dict.fromkeys(AREAS, AREA_BYTES)
 
-    def __init__(self, program: Program, temp_fill: int = 0, budget: int = BUDGET) -> None:
+    def __init__(self, program: Program, temp_fill: int = 0, budget: int = BUDGET, function_error: float = 0.0) -> None:
         self.program = program
         self.scan = 0
         self.faults: list[FaultRecord] = []
@@ -79,7 +80,7 @@ class Machine:
         self._budget = budget
         self._fill = temp_fill
         self._links: dict[tuple[str, str | None], _Link] = {}
-        self.engine = Engine(program, self.memory, self._note, temp_fill)
+        self.engine = Engine(program, self.memory, self._note, temp_fill, function_error)
 
     def _note(self, kind: str, site: Site) -> None:
         self.record(kind, site.function.name, site.location)
