@@ -28,8 +28,8 @@ from plcgen.plc.source import Span, read_source
 from plcgen.plc.types import CHAR, Elementary, Family, String
 from plcgen.trajectory import Trajectory
 
-INSTANCE = "plcgen instance"
-"""Of an FB that the file declares no instance for; with a blank, so that no block of a source has the name."""
+INSTANCE = "plcgen\tinstance"
+"""Of an FB that the file declares no instance for; with a tab, so that no block of a source has the name."""
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 
-from plcgen.plc.core import Cell
+from plcgen.plc.core import Area, Cell
 from plcgen.plc.types import BOOL, BYTE, BYTE_BITS, DWORD, LWORD, WORD
 
 AREA_BYTES = 65536
-AREAS = ("I", "Q", "M", "PI", "PQ")
 SIZES = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD, "L": LWORD}
 _ADDRESS = re.compile(r"%?(P?[IQ]|M)([XBWD]?)(\d+)(?:\.([0-7]))?", re.IGNORECASE)
 
@@ -22,10 +21,10 @@ def parse_address(text: str) -> Cell | None:
     size = size.upper() or "X"
     if (size == "X") != bool(bit):
         raise ValueError("a bit needs .0 to .7, B, W and D have none")
-    return cell(area.upper(), size, int(byte), int(bit or 0))
+    return cell(Area(area.upper()), size, int(byte), int(bit or 0))
 
 
-def cell(area: str, size: str, byte: int, bit: int, room: int = AREA_BYTES) -> Cell:
+def cell(area: Area | str, size: str, byte: int, bit: int, room: int = AREA_BYTES) -> Cell:
     """The cell at a byte and bit of an area with `room` bytes. Raises ValueError beyond it."""
     kind = SIZES[size]
     start = byte * BYTE_BITS + bit

@@ -3,23 +3,39 @@
 A function is a list of instructions over places. Memory is bytes: `Cell` views some bits of an area as a type, so
 overlapping views cost nothing. A `Register` has a value and no address.
 
-Areas are names: I, Q, M and other global ones; DB100 a data block; L the frame of the running function; D the
-instance data of the running FB, counted from its base.
+An area is a data block by its name, or one of `Area`: no name that a source gives a block can be one of those.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 
 from plcgen.plc.operators import Operator
 from plcgen.plc.source import SourceText, Span
 from plcgen.plc.types import BIT_STRINGS, BYTE_BITS, Elementary, Structure, Type, Value
 
-FRAME = "L"
-INSTANCE = "D"
-
 # --------------------------------------------------------------------------------------------------------- places
+
+
+class Area(Enum):
+    """Memory outside data blocks. FRAME is that of the running function, INSTANCE the data of the running FB."""
+
+    INPUTS = "I"
+    OUTPUTS = "Q"
+    MEMORY = "M"
+    PERIPHERAL_INPUTS = "PI"
+    PERIPHERAL_OUTPUTS = "PQ"
+    FRAME = "L"
+    INSTANCE = "D"
+
+    def __str__(self) -> str:
+        return self.value
+
+
+FRAME, INSTANCE = Area.FRAME, Area.INSTANCE
+GLOBAL_AREAS = tuple(area for area in Area if area not in (FRAME, INSTANCE))
 
 
 @dataclass(frozen=True)
@@ -38,7 +54,7 @@ class Register:
 class Cell:
     """Bits of memory viewed as a type; `index` is a DINT register with further bits, known at run time only."""
 
-    area: str
+    area: Area | str
     bit: int
     type: Type
     index: Register | None = None

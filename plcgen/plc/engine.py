@@ -17,6 +17,7 @@ from plcgen.plc.arithmetic import library
 from plcgen.plc.core import (
     FRAME,
     INSTANCE,
+    Area,
     Branch,
     Call,
     Cell,
@@ -33,7 +34,7 @@ from plcgen.plc.core import (
     Return,
 )
 from plcgen.plc.source import Span
-from plcgen.plc.types import BYTE_BITS, ELEMENTARY, Elementary
+from plcgen.plc.types import BOOL, BYTE_BITS, ELEMENTARY, Elementary
 
 INDENT = "    "
 
@@ -58,7 +59,7 @@ class Engine:
     def __init__(
         self,
         program: Program,
-        memory: Mapping[str, bytearray],
+        memory: Mapping[Area | str, bytearray],
         note: Callable[[str, Site], None],
         temp_fill: int = 0,
         function_error: float = 0.0,
@@ -69,7 +70,7 @@ class Engine:
         self._sources: dict[str, str] = {}
         self._functions: dict[str, Callable[..., Any]] = {}
         names = _Names()
-        areas = {area: names.of(area) for area in memory}
+        areas = {area: names.of(str(area)) for area in memory}
         functions = {name: names.of(name) for name in program.functions}
         namespace = self._namespace(memory, areas, function_error)
         for name, function in program.functions.items():
@@ -79,7 +80,7 @@ class Engine:
             self._functions[name] = namespace[functions[name]]
 
     def _namespace(
-        self, memory: Mapping[str, bytearray], areas: Mapping[str, str], function_error: float
+        self, memory: Mapping[Area | str, bytearray], areas: Mapping[Area | str, str], function_error: float
     ) -> dict[str, Any]:
         namespace = library(lambda kind, site: self._note(kind, self._sites[site]), self._out_of_bounds, function_error)
         namespace.update(load_bit=_load_bit, store_bit=_store_bit, budget=self.budget, exhausted=self._exhausted)
@@ -177,7 +178,7 @@ class _Translator:
 
     function: Function
     functions: Mapping[str, str]
-    areas: Mapping[str, str]
+    areas: Mapping[Area | str, str]
     sites: list[Site]
     temp_fill: int
     block: int = 0
@@ -193,9 +194,9 @@ class _Translator:
 
     def _parameters(self) -> Iterator[str]:
         if self.function.instance is not None:
-            yield from (INSTANCE, "B")
+            yield from (str(INSTANCE), "B")
         if self.function.frame_given:
-            yield FRAME
+            yield str(FRAME)
         yield from (_parameter(position, place) for position, place in enumerate(self.function.parameters))
 
     def _entry(self) -> Iterator[str]:
@@ -271,7 +272,7 @@ class _Translator:
             operands.append(text)
         site = self._site(instruction.span) if "{site}" in operator.text + operator.repair else 0
         plain = not operator.rounds and not operator.check
-        if isinstance(target, Cell) and plain and target.type.bits >= BYTE_BITS:
+        if isinstance(target, Cell) and plain and target.type is not BOOL:
             yield from self._store(target, operator.text.format(*operands, site=site))
             return
         result = _local(target) if isinstance(target, Register) else "t"
@@ -303,7 +304,7 @@ class _Translator:
         if isinstance(operand, Register):
             return _local(operand)
         memory, kind = self._area(operand), operand.type
-        if kind.bits < BYTE_BITS:
+        if kind is BOOL:
             return self._load_bit(memory, operand)
         start = self._byte(operand)
         if not isinstance(kind, Elementary):
@@ -319,7 +320,7 @@ class _Translator:
         if isinstance(place, Register):
             return [f"{_local(place)} = {value}"]
         memory, kind = self._area(place), place.type
-        if kind.bits < BYTE_BITS:
+        if kind is BOOL:
             return self._store_bit(memory, place, value)
         start = self._byte(place)
         if not isinstance(kind, Elementary):
@@ -335,7 +336,7 @@ class _Translator:
         return [f"if {value}: {memory}[{start}] |= {mask}", f"else: {memory}[{start}] &= {255 - mask}"]
 
     def _area(self, cell: Cell) -> str:
-        return cell.area if cell.area in (INSTANCE, FRAME) else self.areas[cell.area]
+        return str(cell.area) if cell.area in (INSTANCE, FRAME) else self.areas[cell.area]
 
     def _byte(self, cell: Cell) -> str:
         terms = ["B"] if cell.area == INSTANCE else []

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from plcgen.plc.types import BYTE_BITS, WORD_BITS, Elementary, Field, Structure, Type, Value, align
+from plcgen.plc.types import BOOL, BYTE_BITS, WORD_BITS, Elementary, Field, Structure, Type, Value, align
 
 
 @dataclass(frozen=True)
@@ -48,17 +48,17 @@ def _start(member: Member, fields: list[Field], end: int) -> int:
 def write(image: bytearray, bit: int, target: Type, data: bytes) -> None:
     """Put the encoded value of one member into an image."""
     start = bit // BYTE_BITS
-    if target.bits >= BYTE_BITS:
-        image[start : start + len(data)] = data
-    else:
+    if target is BOOL:
         mask = 1 << bit % BYTE_BITS
         image[start] = image[start] & ~mask | (mask if data[0] else 0)
+    else:
+        image[start : start + len(data)] = data
 
 
 def read(image: bytes | bytearray, bit: int, source: Type) -> Value:
     """The value of one member in an image."""
     start = bit // BYTE_BITS
-    if source.bits < BYTE_BITS:
+    if source is BOOL:
         return bool(image[start] >> bit % BYTE_BITS & 1)
     data = bytes(image[start : start + source.bits // BYTE_BITS])
     return source.decode(data) if isinstance(source, Elementary) else data

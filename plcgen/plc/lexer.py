@@ -137,7 +137,8 @@ BASED = r"(?>[0-9]+#[0-9A-Za-z_]*)"
 STRING = r"'(?:[^$'\r\n]|\$[^\r\n])*+'"
 ASCII_NAME = r"[A-Za-z_][0-9A-Za-z_]*"
 WIDE_NAME = r"[^\W\d]\w*"
-QUOTED_NAME = r'"[^"\r\n]+"'
+CONTROL = r"\x00-\x1f\x7f"
+QUOTED_NAME = rf'"[^"{CONTROL}]+"'
 
 # E, A, PE, PA are the German names of I, Q, PI, PQ.
 BIT_ADDRESS = r"(?i:[MIQEA]X?[0-9]+\.[0-9]+)"
@@ -178,6 +179,7 @@ REFUSED = (
     ),
 )
 UNCLOSED = (
+    (rf'#?"[^"\r\n]*(?=[{CONTROL}])[^\r\n"][^"\r\n]*"', "control character in a name; remove it"),
     (r"'", "string is not closed on this line; add '"),
     (r'#?"', 'name is not closed on this line; add "'),
 )

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 from plcgen.errors import Fault, Location, PlcgenError
-from plcgen.plc.addresses import AREA_BYTES, AREAS, parse_address
-from plcgen.plc.core import Cell, DataBlock, Function, Program
+from plcgen.plc.addresses import AREA_BYTES, parse_address
+from plcgen.plc.core import GLOBAL_AREAS, Area, Cell, DataBlock, Function, Program
 from plcgen.plc.engine import Engine, Site
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import (
@@ -68,13 +68,13 @@ class Machine:
     their bytes.
     """
 
-    areas: ClassVar[Mapping[str, int]] = dict.fromkeys(AREAS, AREA_BYTES)
+    areas: ClassVar[Mapping[Area, int]] = dict.fromkeys(GLOBAL_AREAS, AREA_BYTES)
 
     def __init__(self, program: Program, temp_fill: int = 0, budget: int = BUDGET, function_error: float = 0.0) -> None:
         self.program = program
         self.scan = 0
         self.faults: list[FaultRecord] = []
-        self.memory = {area: bytearray(size) for area, size in self.areas.items()}
+        self.memory: dict[Area | str, bytearray] = {area: bytearray(size) for area, size in self.areas.items()}
         self.memory |= {name: bytearray(block.initial) for name, block in program.data_blocks.items()}
         self._blocks: dict[str, DataBlock] = dict(program.data_blocks)
         self._budget = budget

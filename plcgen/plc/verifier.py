@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from plcgen.plc.core import (
     FRAME,
     INSTANCE,
+    Area,
     Branch,
     Call,
     Cell,
@@ -116,13 +117,13 @@ def _operand_problems(program: Program, function: Function, operand: Operand) ->
         yield f"{operand} lies outside the {room} bytes of {operand.area}"
 
 
-def _room(program: Program, function: Function, area: str) -> int | None:
+def _room(program: Program, function: Function, area: Area | str) -> int | None:
     """Bytes of an area, None when its size belongs to the machine."""
     if area == FRAME:
         return function.frame_bytes
     if area == INSTANCE:
         return function.instance.bits // BYTE_BITS if function.instance else 0
-    block = program.data_blocks.get(area)
+    block = None if isinstance(area, Area) else program.data_blocks.get(area)
     return len(block.initial) if block else None
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from plcgen.plc.core import (
+    FRAME,
+    INSTANCE,
     Branch,
     Call,
     Cell,
@@ -28,7 +30,7 @@ from plcgen.plc.verifier import CoreError, verify
 HERE = Span(0, 1)
 SOURCE = SourceText("core.scl", "x")
 DATA = arrange("FB1", [[Member("a", REAL), Member("b", BOOL)]])
-A, B = Cell("D", 0, REAL), Cell("D", 32, BOOL)
+A, B = Cell(INSTANCE, 0, REAL), Cell(INSTANCE, 32, BOOL)
 X, Y, N = Register(1, REAL, "x"), Register(2, REAL), Register(3, INT, "n")
 STEP = Function("FC1", SOURCE, (Compute(HERE, Y, move(REAL), (X,)), Return(HERE)), HERE, None, (X,), (Y,))
 
@@ -94,11 +96,17 @@ END = Return(HERE)
         ),
         ((Call(HERE, "FC1", None, (A,)), END), "call FC1(D[0.0]): results are none, the function has REAL"),
         ((Call(HERE, "FB1"), END), "call FB1(): instance is None, the function has FB1"),
-        ((add(Cell("D", 32, REAL), A, A), END), "D[4.0]:REAL := D[0.0] + D[0.0]: D[4.0] lies outside the 6 bytes of D"),
-        ((add(Cell("L", 8, REAL), A, A), END), "L[1.0]:REAL := D[0.0] + D[0.0]: L[1.0] lies outside the 4 bytes of L"),
-        ((add(Cell("L", 1, REAL), A, A), END), "L[0.1]:REAL := D[0.0] + D[0.0]: REAL does not start at a byte"),
+        (
+            (add(Cell(INSTANCE, 32, REAL), A, A), END),
+            "D[4.0]:REAL := D[0.0] + D[0.0]: D[4.0] lies outside the 6 bytes of D",
+        ),
+        (
+            (add(Cell(FRAME, 8, REAL), A, A), END),
+            "L[1.0]:REAL := D[0.0] + D[0.0]: L[1.0] lies outside the 4 bytes of L",
+        ),
+        ((add(Cell(FRAME, 1, REAL), A, A), END), "L[0.1]:REAL := D[0.0] + D[0.0]: REAL does not start at a byte"),
         ((Compute(HERE, N, move(INT), (Literal(40000, INT),)), END), "#n:INT := 40000: 40000 is no INT"),
-        ((add(Cell("L", 0, REAL, N), A, A), END), "L[0.0 + #n]:REAL := D[0.0] + D[0.0]: index is INT, not DINT"),
+        ((add(Cell(FRAME, 0, REAL, N), A, A), END), "L[0.0 + #n]:REAL := D[0.0] + D[0.0]: index is INT, not DINT"),
         (
             (
                 Branch(HERE, B, "L1"),
@@ -125,7 +133,7 @@ def test_end_without_return_is_refused() -> None:
 def test_index_must_be_set_too() -> None:
     index = Register(9, DINT)
     with pytest.raises(CoreError, match="%9 is read before it is set"):
-        verify(program(Compute(HERE, Cell("L", 0, REAL, index), move(REAL), (A,)), END))
+        verify(program(Compute(HERE, Cell(FRAME, 0, REAL, index), move(REAL), (A,)), END))
 
 
 def test_result_must_be_set_on_every_path() -> None:

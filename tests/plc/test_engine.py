@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from plcgen.errors import Fault
 from plcgen.plc.arithmetic import library
 from plcgen.plc.core import (
+    INSTANCE,
     Branch,
     Call,
     Cell,
@@ -50,7 +51,7 @@ def row(symbol: str, *types: Type) -> Operator:
 def cell(name: str) -> Cell:
     member = DATA.member(name)
     assert member is not None
-    return Cell("D", member.bit, member.type)
+    return Cell(INSTANCE, member.bit, member.type)
 
 
 PLACES: list[Place] = [*REGISTERS, *(cell(name) for name in NAMES)]

@@ -109,6 +109,8 @@ BAD = [
     ("(* a (* b *) c *)", "f.scl:1:16: *) without (*: comments do not nest; remove the inner (*"),
     ("'abc\n'", "f.scl:1:1: string is not closed on this line; add '"),
     ('"abc\n', 'f.scl:1:1: name is not closed on this line; add "'),
+    ('"a\0c"', "f.scl:1:1: control character in a name; remove it"),
+    ('#"a\tc"', "f.scl:1:1: control character in a name; remove it"),
     ("1abc", "f.scl:1:1: 1abc is neither a number nor a name; names start with a letter"),
     ("1.5x", "f.scl:1:1: 1.5x is neither a number nor a name; names start with a letter"),
     ("3E", "f.scl:1:1: 3E is neither a number nor a name; names start with a letter"),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from plcgen.plc.core import Cell, Literal, Operand, Place
+from plcgen.plc.core import Cell, Operand, Place, Register
 from plcgen.plc.scl import syntax
 from plcgen.plc.scl.functions import FUNCTIONS
 from plcgen.plc.scl.lowering_declarations import Interface, Parameter
-from plcgen.plc.scl.lowering_expressions import Expressions
-from plcgen.plc.scl.lowering_values import Untyped, Value, expect
+from plcgen.plc.scl.lowering_expressions import Expressions, calls_block
+from plcgen.plc.scl.lowering_values import Value, expect
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import Elementary, Type
@@ -82,16 +82,17 @@ class Calls(Expressions):
 
     def _call_instance(self, node: syntax.Call, interface: Interface, instance: Cell) -> None:
         bound = self._bind(node, interface)
+        places = self._places(bound)
         for parameter, argument in bound:
             if parameter.kind is not OUTPUT:
-                value = self._input(parameter, argument)
+                value = places.get(parameter.name) or self._input(parameter, argument)
                 self.builder.span = argument.span
                 self.builder.move(self._member(instance, parameter), value)
         self.builder.span = node.span
         self.builder.call(interface.name, instance)
         for parameter, argument in bound:
-            if parameter.kind is not INPUT:
-                self._deliver(argument, self._member(instance, parameter))
+            if parameter.name in places:
+                self._deliver(argument, self._member(instance, parameter), places[parameter.name])
 
     @staticmethod
     def _member(instance: Cell, parameter: Parameter) -> Cell:
@@ -102,18 +103,21 @@ class Calls(Expressions):
     # ---------------------------------------------------------------------------------------------------------- FCs
 
     def _call_function(self, node: syntax.Call, interface: Interface) -> Value | None:
-        bound = {parameter.name: argument for parameter, argument in self._bind(node, interface)}
-        missing = [parameter.name for parameter in interface.parameters if parameter.name not in bound]
+        bound = self._bind(node, interface)
+        given = {parameter.name: argument for parameter, argument in bound}
+        missing = [parameter.name for parameter in interface.parameters if parameter.name not in given]
         if missing:
             raise self.source.error(f"{interface.name} needs parameter {missing[0]}", node.span)
-        arguments = tuple(self._input(p, bound[p.name]) for p in interface.of_kinds(INPUT, IN_OUT))
+        places = self._places(bound)
+        values = {**places, **self._inputs(bound)}
+        arguments = tuple(values[parameter.name] for parameter in interface.of_kinds(INPUT, IN_OUT))
         outputs = interface.of_kinds(OUTPUT, IN_OUT)
         received = [self._receiver(parameter.type) for parameter in outputs]
         result = [self._receiver(interface.result)] if interface.result is not None else []
         self.builder.span = node.span
         self.builder.call(interface.name, None, arguments, (*result, *received))
         for parameter, place in zip(outputs, received, strict=True):
-            self._deliver(bound[parameter.name], place)
+            self._deliver(given[parameter.name], place, places[parameter.name])
         return result[0] if result else None
 
     def _receiver(self, kind: Type) -> Place:
@@ -153,18 +157,36 @@ class Calls(Expressions):
             message = f"{name} is an output of {interface.name}; read it from the instance after the call"
             raise self.source.error(message, argument.span)
 
+    def _places(self, bound: Bound) -> dict[str, Place]:
+        """Where the call writes to, by parameter: found before it runs, since it may change an index."""
+        return {parameter.name: self._place(parameter, given) for parameter, given in bound if parameter.kind != INPUT}
+
+    def _place(self, parameter: Parameter, argument: syntax.Argument) -> Place:
+        node = argument.value
+        found = self.read(node) if isinstance(node, syntax.Variable | syntax.Address) else None
+        if parameter.kind is IN_OUT and (not isinstance(found, Cell | Register) or found.type != parameter.type):
+            message = f"{parameter.name} is read and written; give it a variable of type {parameter.type}"
+            raise self.source.error(message, node.span)
+        if isinstance(found, Cell | Register):
+            return found
+        raise self.source.error(f"{parameter.name} is an output; give it a variable to write to", node.span)
+
+    def _inputs(self, bound: Bound) -> dict[str, Operand]:
+        """Input values from left to right; one that a later call could change is taken before that call."""
+        inputs: dict[str, Operand] = {}
+        for number, (parameter, argument) in enumerate(bound):
+            if parameter.kind is INPUT:
+                value = self._input(parameter, argument)
+                later = [given.value for _, given in bound[number + 1 :]]
+                inputs[parameter.name] = self.taken(value) if calls_block(later) else value
+        return inputs
+
     def _input(self, parameter: Parameter, argument: syntax.Argument) -> Operand:
         value = self.value(argument.value)
-        if parameter.kind is IN_OUT and (isinstance(value, Literal | Untyped) or value.type != parameter.type):
-            message = f"{parameter.name} is read and written; give it a variable of type {parameter.type}"
-            raise self.source.error(message, argument.value.span)
         return expect(self.source, self.builder, value, parameter.type, argument.value.span)
 
-    def _deliver(self, argument: syntax.Argument, source: Operand) -> None:
+    def _deliver(self, argument: syntax.Argument, source: Operand, target: Place) -> None:
         """Copy what a block hands back into the variable of the call."""
-        if not isinstance(argument.value, syntax.Variable | syntax.Address):
-            raise self.source.error("an output needs a variable", argument.value.span)
-        target = self.place(argument.value)
         value = expect(self.source, self.builder, source, target.type, argument.value.span)
         self.builder.span = argument.span
         self.builder.move(target, value)

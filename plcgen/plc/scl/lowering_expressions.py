@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from functools import reduce
+from typing import TypeVar
 
 from plcgen.plc.core import Literal, Operand
 from plcgen.plc.operators import conversion_named, move
@@ -15,6 +16,8 @@ from plcgen.plc.scl.lowering_values import Untyped, Value, combine, expect, lite
 from plcgen.plc.scl.walk import find
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, Elementary, Type
+
+AnyValue = TypeVar("AnyValue", bound=Value)
 
 
 class Expressions(Places):
@@ -52,11 +55,12 @@ class Expressions(Places):
     def values(self, nodes: Sequence[syntax.Expression]) -> list[Value]:
         """Values from left to right; one that a later call could change is taken before that call."""
         return [
-            self._taken(self.value(node)) if _calls_block(nodes[number + 1 :]) else self.value(node)
+            self.taken(self.value(node)) if calls_block(nodes[number + 1 :]) else self.value(node)
             for number, node in enumerate(nodes)
         ]
 
-    def _taken(self, value: Value) -> Value:
+    def taken(self, value: AnyValue) -> AnyValue | Operand:
+        """A copy of the value as it is now."""
         if isinstance(value, Literal | Untyped) or not isinstance(value.type, Elementary):
             return value
         return self.builder.compute(move(value.type), value)
@@ -122,7 +126,7 @@ class Expressions(Places):
         return self.values([given[name].value for name in names])
 
 
-def _calls_block(nodes: Sequence[syntax.Expression]) -> bool:
+def calls_block(nodes: Sequence[syntax.Expression]) -> bool:
     """Whether code that may write to memory runs below these nodes."""
     names = (call.callee.name.upper() for call in find(tuple(nodes), syntax.Call))
     return any(name not in FUNCTIONS and conversion_named(name) is None for name in names)

@@ -10,7 +10,7 @@ from functools import reduce
 from plcgen.plc.addresses import AREA_BYTES, SIZES, parse_address
 from plcgen.plc.addresses import cell as cell_at
 from plcgen.plc.builder import Builder
-from plcgen.plc.core import FRAME, INSTANCE, Cell, Literal, Operand, Place, Register
+from plcgen.plc.core import FRAME, INSTANCE, Area, Cell, Literal, Operand, Place, Register
 from plcgen.plc.operators import INDEX, resolve
 from plcgen.plc.scl import syntax
 from plcgen.plc.scl.dialects import FLAG_WORDS, Dialect
@@ -133,16 +133,20 @@ class Places(ABC):
             yield from self.catalogue.names()
 
     def _addressed(self, node: syntax.Address) -> Cell:
-        area, room = node.area, AREA_BYTES
-        if area.startswith("DB"):
-            block = self.catalogue.data_block(area)
-            if block is None:
-                raise self.source.error(f"unknown data block {area}", node.span)
-            area, room = block.name, len(block.initial)
+        area, room = self._area(node)
         try:
             return cell_at(area, node.size, node.byte, node.bit, room)
         except ValueError as error:
             raise self.source.error(str(error), node.span) from None
+
+    def _area(self, node: syntax.Address) -> tuple[Area | str, int]:
+        """The area of an absolute operand, and its bytes."""
+        if not node.area.startswith("DB"):
+            return Area(node.area), AREA_BYTES
+        block = self.catalogue.data_block(node.area)
+        if block is None:
+            raise self.source.error(f"unknown data block {node.area}", node.span)
+        return block.name, len(block.initial)
 
     # --------------------------------------------------------------------------------------------------- selectors
 

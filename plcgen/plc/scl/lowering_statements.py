@@ -50,9 +50,9 @@ class Statements(Calls):
     @statement.register
     def _(self, node: syntax.Assignment) -> None:
         value = self.value(node.value)
-        if node.operator is not None:
-            value = self._combine(node.operator, [self.read(node.target), value], node.span)
         target = self.place(node.target)
+        if node.operator is not None:
+            value = self._combine(node.operator, [target, value], node.span)
         operand = expect(self.source, self.builder, value, target.type, node.value.span)
         self.builder.span = node.span
         self.builder.move(target, operand)
