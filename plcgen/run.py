@@ -25,7 +25,7 @@ from plcgen.plc.scl.lowering_declarations import CALLABLE, Catalogue, Interface,
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block, BlockKind, SectionKind
 from plcgen.plc.source import Span, read_source
-from plcgen.plc.types import CHAR, Elementary, Family, String
+from plcgen.plc.types import CHAR, Elementary, Family, String, Type
 from plcgen.trajectory import Trajectory
 
 INSTANCE = "plcgen\tinstance"
@@ -275,7 +275,9 @@ def parse_value(text: str, variable: Variable, name: str) -> PythonValue:
     """A value as `--set` spells it, fit for the variable."""
     kind = variable.type
     if isinstance(kind, String):
-        return text[1:-1] if len(text) > 1 and text[0] == text[-1] == "'" else text
+        return _string(text, kind, name)
+    if kind is CHAR:
+        _refuse_wide(text, kind, name, text)
     try:
         value = _value(text, kind)
     except ValueError:
@@ -284,6 +286,20 @@ def parse_value(text: str, variable: Variable, name: str) -> PythonValue:
     if isinstance(value, int) and not isinstance(value, bool) and not kind.minimum <= value <= kind.maximum:
         raise PlcgenError(f"--set {name}={text}: {kind} holds {kind.minimum} to {kind.maximum}")
     return value
+
+
+def _string(text: str, kind: String, name: str) -> str:
+    value = text[1:-1] if len(text) > 1 and text[0] == text[-1] == "'" else text
+    if len(value) > kind.length:
+        raise PlcgenError(f"--set {name}={text}: {len(value)} characters, {kind} holds {kind.length}")
+    _refuse_wide(value, kind, name, text)
+    return value
+
+
+def _refuse_wide(value: str, kind: Type, name: str, text: str) -> None:
+    wide = next((character for character in value if ord(character) > 255), None)
+    if wide is not None:
+        raise PlcgenError(f"--set {name}={text}: '{wide}' does not fit {kind} (8 bits a character)")
 
 
 def _value(text: str, kind: Elementary) -> PythonValue:

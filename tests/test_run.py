@@ -24,7 +24,8 @@ END_FUNCTION
 
 FUNCTION_BLOCK FB1
 VAR_INPUT
-  on : BOOL; b : BYTE; w : WORD; i : INT; d : DINT; r : REAL; t : TIME; c : CHAR; list : ARRAY[1 .. 2] OF INT;
+  on : BOOL; b : BYTE; w : WORD; i : INT; d : DINT; r : REAL; t : TIME; c : CHAR; s : STRING[5];
+  list : ARRAY[1 .. 2] OF INT;
 END_VAR
 VAR_OUTPUT
   count : INT; sum : REAL;
@@ -104,7 +105,7 @@ def test_endless_loop_ends_the_run_and_keeps_the_rows_before(source: Path) -> No
     assert rows(outcome) == ["scan,time,n", "0,0,1", "1,0.01,2"]
     (fault,) = outcome.faults
     assert "watchdog: too many loops and calls in one scan; is there a loop without end? (scan 2)" in fault
-    assert "blocks.scl:33:3:" in fault
+    assert "blocks.scl:34:3:" in fault
 
 
 @pytest.mark.parametrize(
@@ -133,8 +134,11 @@ def test_values_as_the_command_line_spells_them(source: Path, name: str, text: s
         ("i", "32768", "--set i=32768: INT holds -32768 to 32767"),
         ("i", "1.5", "--set i=1.5: no value of type INT; write a whole number such as 12 or 16#FF"),
         ("r", "fast", "--set r=fast: no value of type REAL; write a number such as 1.5"),
-        ("spd", "1", "FB1 has no variable spd; there is on, b, w, i, d, r, t, c, list, count, sum, DB7"),
+        ("spd", "1", "FB1 has no variable spd; there is on, b, w, i, d, r, t, c, s, list, count, sum, DB7"),
         ("cuont", "1", "FB1 has no variable cuont; did you mean count?"),
+        ("c", "ж", "--set c=ж: 'ж' does not fit CHAR (8 bits a character)"),
+        ("s", "'ж'", "--set s='ж': 'ж' does not fit STRING[5] (8 bits a character)"),
+        ("s", "hoists", "--set s=hoists: 6 characters, STRING[5] holds 5"),
         ("list[3]", "1", '"DB7".list[3]: [3] is outside ARRAY[1..2] OF INT'),
     ],
 )

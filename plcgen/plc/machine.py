@@ -201,12 +201,12 @@ _Accessors = tuple[Callable[[], Any], Callable[[Any], None]]
 def _accessors(path: str, memory: bytearray, bit: int, kind: Type) -> _Accessors:
     start = bit // BYTE_BITS
     if isinstance(kind, String):
-        return _string_accessors(memory, start, kind)
+        return _string_accessors(path, memory, start, kind)
     assert isinstance(kind, Elementary)
     if kind is BOOL:
         return _bit_accessors(memory, start, 1 << bit % BYTE_BITS)
     if kind is CHAR:
-        return lambda: chr(memory[start]), lambda value: memory.__setitem__(start, ord(value))
+        return _character_accessors(path, memory, start)
     return _number_accessors(path, memory, start, kind)
 
 
@@ -217,11 +217,24 @@ def _bit_accessors(memory: bytearray, start: int, mask: int) -> _Accessors:
     return lambda: memory[start] & mask != 0, put
 
 
-def _string_accessors(memory: bytearray, start: int, kind: String) -> _Accessors:
+def _character_accessors(path: str, memory: bytearray, start: int) -> _Accessors:
+    def put(character: str) -> None:
+        try:
+            memory[start] = ord(character)
+        except (TypeError, ValueError):
+            raise PlcgenError(f"{path}: {character!r} is no CHAR") from None
+
+    return lambda: chr(memory[start]), put
+
+
+def _string_accessors(path: str, memory: bytearray, start: int, kind: String) -> _Accessors:
     end = start + kind.bits // BYTE_BITS
 
     def put(text: str) -> None:
-        memory[start:end] = kind.encode(text)
+        try:
+            memory[start:end] = kind.encode(text)
+        except ValueError:
+            raise PlcgenError(f"{path}: {text!r} has a character that does not fit 8 bits") from None
 
     return lambda: kind.decode(bytes(memory[start:end])), put
 

@@ -145,7 +145,8 @@ class String:
         return self.encode("")
 
     def encode(self, text: str) -> bytes:
-        characters = text.encode("latin-1", "replace")[: self.length]
+        """Cut to the length. Raises ValueError for characters of more than 8 bits."""
+        characters = text.encode("latin-1")[: self.length]
         return (bytes([self.length, len(characters)]) + characters).ljust(self.bits // BYTE_BITS, b"\0")
 
     @staticmethod

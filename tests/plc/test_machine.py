@@ -120,6 +120,13 @@ def test_value_must_fit() -> None:
         machine().variable("DB100.index").set(40000)
 
 
+def test_character_must_fit_eight_bits() -> None:
+    with pytest.raises(PlcgenError, match=r"^DB100\.letter: 'ж' is no CHAR$"):
+        machine().variable("DB100.letter").set("ж")
+    with pytest.raises(PlcgenError, match=r"^DB100\.place: 'ж' has a character that does not fit 8 bits$"):
+        machine().variable("DB100.place").set("ж")
+
+
 def test_arithmetic_event_is_recorded_and_the_run_goes_on() -> None:
     drive = machine()
     drive.variable("DB100.setpoint").set(0.0)

@@ -59,7 +59,7 @@ PREFIXES = {
 def read_literal(token: Token, dialect: Dialect, negative: bool = False) -> Literal:
     """The literal a NUMBER, TYPED or STRING token spells; `negative` when a minus stands before a number."""
     if token.kind is TokenKind.STRING:
-        return Literal(token.span, unescape(token.text[1:-1]))
+        return Literal(token.span, _characters(token.text))
     if token.kind is TokenKind.TYPED:
         return _typed(token, dialect)
     value = _number(token.text, dialect) * (-1 if negative else 1)
@@ -170,9 +170,23 @@ _ESCAPES = {"$": "$", "'": "'", "L": "\n", "N": "\r\n", "P": "\f", "R": "\r", "T
 _ESCAPE = re.compile(r"\$([0-9A-Fa-f]{2}|.)")
 
 
+MAX_CHARACTERS = 254
+
+
 def unescape(text: str) -> str:
     """`$$ $' $L $N $P $R $T $hh` of a string literal resolved."""
     return _ESCAPE.sub(_unescape_one, text)
+
+
+def _characters(quoted: str) -> str:
+    """What a quoted text holds, fit for a STRING."""
+    text = unescape(quoted[1:-1])
+    wide = next((character for character in text if ord(character) > 255), None)
+    if wide is not None:
+        raise LiteralError(f"'{wide}' does not fit CHAR and STRING (8 bits a character); write ASCII")
+    if len(text) > MAX_CHARACTERS:
+        raise LiteralError(f"text of {len(text)} characters; a STRING holds at most {MAX_CHARACTERS}, split it")
+    return text
 
 
 def _unescape_one(match: re.Match[str]) -> str:
@@ -187,7 +201,7 @@ def _unescape_one(match: re.Match[str]) -> str:
 def _char_value(body: str, text: str, _type_name: str, dialect: Dialect) -> Value:
     if not body.startswith("'"):
         return chr(int(_integer_value(body, text, "BYTE", dialect)))
-    value = unescape(body[1:-1])
+    value = _characters(body)
     if len(value) != 1:
         raise LiteralError(f"{text} has {len(value)} characters; CHAR holds exactly one")
     return value
@@ -196,7 +210,7 @@ def _char_value(body: str, text: str, _type_name: str, dialect: Dialect) -> Valu
 def _string_value(body: str, text: str, _type_name: str, _dialect: Dialect) -> Value:
     if not body.startswith("'"):
         raise LiteralError(f"{text} needs quotes; write '{body}'")
-    return unescape(body[1:-1])
+    return _characters(body)
 
 
 # ----------------------------------------------------------------------------------------------------------- time

@@ -98,7 +98,8 @@ def adapt(constant: Untyped, kind: Type) -> Literal | None:
 def _adapt_text(text: str, kind: Type) -> Literal | None:
     if kind is CHAR and len(text) == 1:
         return Literal(ord(text), CHAR)
-    return Literal(kind.encode(text), kind) if isinstance(kind, String) else None
+    fits = isinstance(kind, String) and len(text) <= kind.length
+    return Literal(kind.encode(text), kind) if fits else None
 
 
 def _adapt_float(number: float, kind: Type) -> Literal | None:
@@ -133,6 +134,8 @@ def expect(source: SourceText, builder: Builder, value: Value, kind: Type, span:
 
 
 def _misfit(value: Value, kind: Type) -> str:
+    if isinstance(value, Untyped) and isinstance(value.value, str) and isinstance(kind, String):
+        return f"{value.value!r} has {len(value.value)} characters, {kind} holds {kind.length}"
     if isinstance(value, Untyped):
         limits = f" ({kind.minimum} .. {kind.maximum})" if kind in (*INTEGERS, *BIT_STRINGS) else ""
         return f"constant {value.value!r} is no {kind}{limits}"

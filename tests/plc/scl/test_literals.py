@@ -120,6 +120,9 @@ BAD = [
     (CLASSIC, "DT#1990-1-1", "DT#1990-1-1 is not a date and time; write DT#1990-1-31-23:59:59.999"),
     (CLASSIC, "DT#2100-1-1-0:0:0", "DT#2100-1-1-0:0:0 is outside the range of DATE_AND_TIME: 1990 to 2089"),
     (CLASSIC, "CHAR#'ab'", "CHAR#'ab' has 2 characters; CHAR holds exactly one"),
+    (CLASSIC, "'ж'", "'ж' does not fit CHAR and STRING (8 bits a character); write ASCII"),
+    (CLASSIC, "CHAR#'ж'", "'ж' does not fit CHAR and STRING (8 bits a character); write ASCII"),
+    (CLASSIC, f"'{'x' * 255}'", "text of 255 characters; a STRING holds at most 254, split it"),
     (CLASSIC, "STRING#5", "STRING#5 needs quotes; write '5'"),
     (CLASSIC, "'a$q'", "$q is not an escape in a string; write $$ for a dollar sign"),
 ]

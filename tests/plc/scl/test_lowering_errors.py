@@ -32,7 +32,7 @@ FUNCTION_BLOCK FB1
 CONST K := 3; END_CONST
 VAR_INPUT i : INT; d : DINT; r : REAL; w : WORD; b : BOOL; t : TIME; c : CHAR; END_VAR
 VAR_OUTPUT speed : REAL; END_VAR
-VAR a : ARRAY[1 .. 10] OF INT; unit : FB2; END_VAR
+VAR a : ARRAY[1 .. 10] OF INT; unit : FB2; s : STRING[5]; END_VAR
 BEGIN
 @
 END_FUNCTION_BLOCK
@@ -87,6 +87,7 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
         # constants
         ("i := 70000;", "6: constant 70000 is no INT (-32768 .. 32767)"),
         ("i := 1.5;", "6: constant 1.5 is no INT (-32768 .. 32767)"),
+        ("s := 'abcdefgh';", "6: 'abcdefgh' has 8 characters, STRING[5] holds 5"),
         ("c := 'xy';", "6: constant 'xy' is no CHAR"),
         ("K := 4;", "1: K is a constant; it cannot be assigned"),
         # names
@@ -160,6 +161,7 @@ def test_tia_statement(statement: str, message: str) -> None:
             "x : ARRAY[0 .. 99999999] OF REAL;",
             "5: ARRAY[0..99999999] OF REAL takes 400000000 bytes, more than any CPU has",
         ),
+        ("x : STRING[5] := 'abcdefgh';", "18: 'abcdefgh' has 8 characters, STRING[5] holds 5"),
         ("x : ANY;", "5: type ANY is not supported"),
         ("x : FB1;", "5: FB1 contains itself"),
         ("x : WORD; y AT x : DWORD;", "11: y has 32 bits, x beneath it only 16"),
