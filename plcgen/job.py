@@ -115,8 +115,12 @@ def _conflicts(job: Job) -> Iterator[tuple[str, str]]:
 
 
 def _hoist_conflicts(hoist: HoistLimits) -> Iterator[tuple[str, str]]:
-    if hoist.creep_velocity >= hoist.max_velocity:
-        yield "hoist.creep_velocity", f"is not below max_velocity = {hoist.max_velocity:g}; write less"
+    if hoist.creep_velocity > hoist.max_velocity / 2:
+        limit = f"{hoist.max_velocity:g}"
+        yield (
+            "hoist.creep_velocity",
+            f"is above half of max_velocity = {limit}; write at most {hoist.max_velocity / 2:g}",
+        )
     if hoist.creep_acceleration > hoist.acceleration:
         limit = f"{hoist.acceleration:g}"
         yield "hoist.creep_acceleration", f"is above acceleration = {limit}; write at most {limit}"
@@ -144,8 +148,7 @@ def _symbol_conflicts(job: Job) -> Iterator[tuple[str, str]]:
             yield from _too_long("name", job.name, job.name, tightest)
         if data != base:
             yield from _too_long(data, blocks.db_name, blocks.db_name, tightest)
-    others = (blocks.fb_name, blocks.velocity_name, blocks.travel_name)
-    same = [name for name in others if name.upper() == blocks.db_name.upper()]
+    same = [name for name in blocks.code_names if name.upper() == blocks.db_name.upper()]
     if same:
         yield data, f"names another block too, {same[0]}; write another name"
 

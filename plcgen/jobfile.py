@@ -29,7 +29,9 @@ from plcgen.targets import TARGETS
 UNITS_PER_METRE = {"m": 1, "cm": 100, "mm": 1000}
 HIGHEST_CODE_BLOCK = 7999  # FB and FC of the S7-300 CPUs in use; the first generation ends earlier
 HIGHEST_DATA_BLOCK = 16000
-VELOCITY_SUFFIX, TRAVEL_SUFFIX, DATA_SUFFIX = "_Velocity", "_Travel", "_DB"
+DATA_SUFFIX = "_DB"
+# A length, speed or time that is neither zero nor at least this is a slip of the finger.
+NEXT_TO_NOTHING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,8 @@ class Quantity:
             refuse(f"is {kind_of(value)}; write a number{quotes}, {asked}")
         if isinstance(value, float) and not math.isfinite(value):
             refuse(f"is no finite number; write {asked}")
+        if low == 0 < value < NEXT_TO_NOTHING:
+            refuse(f"is next to nothing; write {asked}, and if not 0 at least {plain(NEXT_TO_NOTHING)}")
         if value <= 0 < low:
             refuse(f"is not positive; write {asked}")
         if not low <= value <= high:
@@ -152,7 +156,7 @@ def whole_milliseconds(seconds: float) -> float:
 
 Name = Annotated[str, NameRule()]
 Factor = Annotated[float, Quantity("", 1.0, 3.0)]
-Acceleration = Annotated[float, Quantity("m/s2", 0.001, 100.0)]
+Acceleration = Annotated[float, Quantity("m/s2", 0.01, 100.0)]
 
 
 class Table(BaseModel):
@@ -178,18 +182,18 @@ class Table(BaseModel):
 
 
 class Envelope(Table):
-    """Limits of the protection: the curve that trips, the curve that clamps, and what they assume of the brake."""
+    """Limits of the protection envelope, which trips and clamps the setpoint, and what it assumes of the brake."""
 
-    overspeed_factor: Factor = Field(1.15, description="speed that trips, as a multiple of the planned speed")
-    tracking_factor: Factor = Field(1.10, description="speed that the setpoint is clamped to, as a multiple")
+    overspeed_factor: Factor = Field(1.15, description="nowhere does the envelope exceed this multiple of max_velocity")
+    tracking_factor: Factor = Field(1.10, description="the envelope as a multiple of the planned speed of the place")
     tracking_margin: Annotated[float, Quantity("m/s", 0.0, 10.0)] = Field(
-        0.3, description="speed added to the clamp, so that it leaves room near standstill"
+        0.3, description="the envelope lies at least this much above the planned speed"
     )
     brake_deceleration: Acceleration = Field(1.5, description="deceleration of the safety brake")
     reaction_time: Annotated[float, Quantity("s", 0.0, 10.0)] = Field(
         0.5, description="from the trip to the brake's grip"
     )
-    end_velocity: Annotated[float, Quantity("m/s", 0.001, 100.0)] = Field(
+    end_velocity: Annotated[float, Quantity("m/s", 0.01, 50.0)] = Field(
         2.0, description="highest speed at which the end of the shaft may be reached"
     )
     overwind: Annotated[float, Quantity("m", 0.001, 100.0)] = Field(
@@ -200,24 +204,24 @@ class Envelope(Table):
 class HoistLimits(Table):
     """Limits of a hoist between two stops: creep out, accelerate, run, decelerate, creep in, stop."""
 
-    travel: Annotated[float, Quantity("m", 0.001, 1e5)] = Field(description="from stop to stop", examples=[600.0])
-    max_velocity: Annotated[float, Quantity("m/s", 0.001, 100.0)] = Field(description="highest speed", examples=[12.0])
+    travel: Annotated[float, Quantity("m", 0.1, 1e4)] = Field(description="from stop to stop", examples=[600.0])
+    max_velocity: Annotated[float, Quantity("m/s", 0.01, 50.0)] = Field(description="highest speed", examples=[12.0])
     acceleration: Acceleration = Field(description="highest acceleration", examples=[0.75])
     deceleration: Acceleration = Field(
         default_factory=lambda given: given["acceleration"], description="highest deceleration; default acceleration"
     )
-    jerk: Annotated[float, Quantity("m/s3", 0.001, 1e4)] = Field(description="highest jerk", examples=[0.5])
-    creep_velocity: Annotated[float, Quantity("m/s", 0.0001, 100.0)] = Field(
-        description="speed near the stops, below max_velocity", examples=[0.5]
+    jerk: Annotated[float, Quantity("m/s3", 0.01, 1e3)] = Field(description="highest jerk", examples=[0.5])
+    creep_velocity: Annotated[float, Quantity("m/s", 0.005, 10.0)] = Field(
+        description="speed near the stops, at most half of max_velocity", examples=[0.5]
     )
     creep_acceleration: Acceleration = Field(
         default_factory=lambda given: given["acceleration"],
         description="of the ramps between standstill and creep speed; default and at most acceleration",
     )
-    creep_out: Annotated[float, Quantity("m", 0.0, 1e4)] = Field(
+    creep_out: Annotated[float, Quantity("m", 0.0, 1e3)] = Field(
         description="travel at creep speed before accelerating; may be 0", examples=[1.5]
     )
-    creep_in: Annotated[float, Quantity("m", 0.001, 1e4)] = Field(
+    creep_in: Annotated[float, Quantity("m", 0.001, 1e3)] = Field(
         description="travel at creep speed before the stop ramp; takes up what the drive lags behind", examples=[2.5]
     )
     envelope: Envelope = Field(default={}, validate_default=True, description="protection; optional")
@@ -253,11 +257,25 @@ class Blocks(Table):
 
     @property
     def velocity_name(self) -> str:
-        return self.fb_name + VELOCITY_SUFFIX
+        return f"{self.fb_name}_Velocity"
 
     @property
     def travel_name(self) -> str:
-        return self.fb_name + TRAVEL_SUFFIX
+        return f"{self.fb_name}_Travel"
+
+    @property
+    def restart_name(self) -> str:
+        """Of the example call in TIA, where the OB stays the user's."""
+        return f"{self.fb_name}_Restart"
+
+    @property
+    def cyclic_name(self) -> str:
+        return f"{self.fb_name}_Cyclic"
+
+    @property
+    def code_names(self) -> tuple[str, ...]:
+        """Symbols of everything that is written but the instance data block."""
+        return self.fb_name, self.velocity_name, self.travel_name, self.restart_name, self.cyclic_name
 
 
 class JobFile(Table):

@@ -35,6 +35,10 @@ RESERVED_WORDS = TYPES | frozenset(
     CALL NOP SAVE SET CLR TAK
     """.split()  # noqa: SIM905
 )
+# Files of Windows that no other file can be named after.
+DEVICES = frozenset(
+    {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(10))}
+)
 # Blocks that most projects hold already: an import would overwrite or clash with them.
 STANDARD_BLOCKS = frozenset({"MAIN", "STARTUP", "CYCL_EXC", "CYC_INT5", "COMPLETE_RESTART"})
 # Block numbers, timers and counters, and the operand areas with their widths, in English and German letters.
@@ -59,6 +63,8 @@ def name_fault(name: str) -> str | None:
         return f"is a reserved word of SCL; write another name, such as {name}_1"
     if upper in STANDARD_BLOCKS:
         return "is the name of a block that most projects have already; write another name"
+    if upper in DEVICES:
+        return "is a device of Windows, which takes no file of that name; write another name"
     if _ADDRESS.fullmatch(upper):
         return "reads as an address; write a name that is not an area and a number"
     return None

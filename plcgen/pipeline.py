@@ -19,8 +19,9 @@ from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block
 from plcgen.plc.source import decode_source
 from plcgen.profile.constants import ConstantGroup
-from plcgen.profile.hoist import Leg, Trip, creeping_travel, derive, plan_stop, plan_trip
-from plcgen.profile.hoist_constants import hoist_constants, position_window, transition_table
+from plcgen.profile.hoist import Leg, Trip, creeping_travel, plan_stop, plan_trip
+from plcgen.profile.hoist_constants import hoist_constants, transition_table
+from plcgen.profile.hoist_rules import derive, position_window
 from plcgen.render.environment import render
 from plcgen.render.hoist import block_names, hoist_context, output_files
 from plcgen.trajectory import Trajectory

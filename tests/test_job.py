@@ -85,7 +85,7 @@ def test_integers_become_numbers() -> None:
 
 
 def test_ranges_follow_the_length_unit() -> None:
-    assert "hoist.travel = 0.5 is out of range; write 1 to 100000000 mm" in refused(SHORT.replace("600_000", "0.5"))
+    assert "hoist.travel = 0.5 is out of range; write 100 to 10000000 mm" in refused(SHORT.replace("600_000", "0.5"))
     assert "[hoist] lacks jerk; add a line such as jerk = 500.0" in refused(SHORT.replace("hoist.jerk = 500", ""))
 
 

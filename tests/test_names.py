@@ -20,7 +20,7 @@ def test_good_names(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["FB100", "db1", "MW10", "T5", "EB0", "DBX1", "Real_To_Int", "Main", "OB", "1a", "a__b"]
+    "name", ["FB100", "db1", "MW10", "T5", "EB0", "DBX1", "Real_To_Int", "Main", "OB", "1a", "a__b", "NUL", "com1"]
 )
 def test_names_that_mean_something_else(name: str) -> None:
     assert name_fault(name)

@@ -21,21 +21,32 @@ from plcgen.check.rig import PERFECT, Clock, Encoder, Rig
 from plcgen.plc.core import Program
 from plcgen.trajectory import Trajectory
 
+GARBAGE = 0x7F
+"""Byte that fills temporaries before each call: REAL 3.39E38, INT 32639, BOOL TRUE."""
+
 
 @dataclass(frozen=True)
 class Bench:
-    """The program under test, the names of its FB and instance DB, and the model it is held against."""
+    """The program under test, the names of its FB and instance DB, and the model it is held against.
+
+    `temp_fill` fills what the block has not written, `function_error` is the relative error of EXP, LN and the like.
+    """
 
     program: Program
     block: str
     instance: str
     model: HoistModel
 
-    def rig(self, travel: float, clock: Clock | None = None, encoder: Encoder = PERFECT, temp_fill: int = 0) -> Rig:
-        """A cold CPU with the hoist at rest at a place; the block is called with the period of the clock."""
+    temp_fill: int = GARBAGE
+    function_error: float = 0.0
+
+    def rig(self, travel: float, clock: Clock | None = None, encoder: Encoder = PERFECT) -> Rig:
+        """A cold CPU with the hoist at rest at a place. Only a period that differs from the job's is handed over."""
         clock = clock or Clock(self.model.sample_period)
-        rig = Rig(self.program, self.block, self.instance, travel, clock, encoder, temp_fill)
-        rig.set(cycleTime=clock.period)
+        parts = (self.program, self.block, self.instance, travel, clock, encoder)
+        rig = Rig(*parts, self.temp_fill, self.function_error)
+        if clock.period != self.model.sample_period:
+            rig.set(cycleTime=clock.period)
         return rig
 
     def scans(self, seconds: float) -> int:
@@ -48,8 +59,10 @@ class Bench:
 
     @property
     def longest_stop(self) -> int:
+        """Scans that no stop exceeds, nor the stop ramp."""
         limits = self.model.limits
-        return self.scans(self.model.stop(limits.max_velocity, limits.acceleration).duration) + 10
+        stop = self.model.stop(limits.max_velocity, limits.acceleration).duration
+        return self.scans(max(stop, self.model.trip(limits.travel).stop_time)) + 10
 
 
 @dataclass
@@ -89,6 +102,11 @@ def at_rest(rig: Rig) -> bool:
     return rig.get("phase") == STANDSTILL
 
 
+def reached(phase: int, rig: Rig) -> bool:
+    """For `partial`: a phase or a later one."""
+    return rig.get("phase") >= phase
+
+
 def full_trip(
     bench: Bench,
     name: str,
@@ -96,18 +114,21 @@ def full_trip(
     encoder: Encoder = PERFECT,
     clock: Clock | None = None,
     stops: tuple[float, float] | None = None,
-    temp_fill: int = 0,
+    distance: float | None = None,
 ) -> Run:
-    """From stop to stop; the direction input is turned in mid-trip, which must change nothing."""
+    """From stop to stop, or over the last `distance`; the direction input is turned on the way, to no effect."""
     lower, upper = stops or (0.0, bench.model.limits.travel)
+    distance = distance or upper - lower
     clock = clock or Clock(bench.model.sample_period)
-    rig = bench.rig(lower if up else upper, clock, encoder, temp_fill)
-    rig.set(lowerStop=lower, upperStop=upper, directionUp=up)
+    rig = bench.rig(upper - distance if up else lower + distance, clock, encoder)
+    if stops:
+        rig.set(lowerStop=lower, upperStop=upper)
+    rig.set(directionUp=up)
     rig.scan()
     rig.set(enable=True)
     rig.scan()
     rig.set(directionUp=not up)
-    run = Run(name, encoder, clock, nominal=stops is None and encoder == PERFECT)
+    run = Run(name, encoder, clock, nominal=stops is None and encoder == PERFECT and distance == upper - lower)
     run.complete = rig.run(bench.longest_trip, at_rest)
     run.trips.append((1, rig.scans, up))
     rig.set(directionUp=up)
@@ -127,10 +148,17 @@ def interrupted_trip(bench: Bench, name: str, up: bool, places: Sequence[float])
         _leg_of(bench, run, rig, up, place)
         run.complete &= not at_rest(rig)
         _interrupt(bench, run, rig, up, by_stop=number % 2 == 0)
+        if _arrived(bench, rig):
+            return run.finish(rig, rig.plant.travel)
     _leg_of(bench, run, rig, up, 2 * travel)
     run.complete &= at_rest(rig)
     rig.run(3)
     return run.finish(rig, travel if up else 0.0)
+
+
+def _arrived(bench: Bench, rig: Rig) -> bool:
+    """A stop request shortly before the stop may end at it: no further trip is possible, and none is due."""
+    return abs(rig.get("distanceToGo")) <= bench.model.position_window
 
 
 def _leg_of(bench: Bench, run: Run, rig: Rig, up: bool, place: float) -> None:

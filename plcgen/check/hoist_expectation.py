@@ -101,7 +101,7 @@ def expect_trip(model: HoistModel, segment: Segment) -> Expected:
     # The setpoint of a ramp is held for a cycle: it is the speed in the middle of the cycle.
     middle = (np.arange(segment.last - segment.first) + 0.5) * period
     starting = middle < trip.start_time
-    stopping = np.maximum.accumulate((segment.to_go <= trip.stop_travel) & ~starting)
+    stopping = np.maximum.accumulate(_ramp_is_due(trip, segment, resolution) & ~starting)
     time = np.where(starting, middle, _time_of_stop(trip, segment, stopping, period))
     ramp = trip.reference.at_time(time)
     by_time = starting | stopping
@@ -125,10 +125,21 @@ def expect_trip(model: HoistModel, segment: Segment) -> Expected:
     )
 
 
+def _ramp_is_due(trip: TripModel, segment: Segment, resolution: float) -> Samples:
+    """Where the stop ramp has begun. What lies within the resolution of its begin is for the block to say."""
+    tie = np.abs(segment.to_go - trip.stop_travel) <= resolution
+    return np.asarray(np.where(tie, segment.column("phase") == STOP_RAMP, segment.to_go <= trip.stop_travel))
+
+
 def _time_of_stop(trip: TripModel, segment: Segment, stopping: Samples, period: float) -> Samples:
-    """Instants of the reference for the rows of the stop ramp: from the travel of its first row, then by the clock."""
+    """Instants of the reference for the rows of the stop ramp: from the travel of its first row, then by the clock.
+
+    An encoder's step may be longer than two cycles at creep speed; the ramp makes up for no more.
+    """
     first = int(np.argmax(stopping))
-    due = float(trip.reference.time_at(np.array([segment.travelled[first]]))[0])
+    begin = trip.reference.duration - trip.stop_time
+    reached = float(trip.reference.time_at(np.array([segment.travelled[first]]))[0])
+    due = min(reached, begin + 2 * period)
     rows = np.arange(len(stopping)) - first
     return np.where(stopping, due + (rows + 0.5) * period, 0.0)
 

@@ -77,8 +77,9 @@ class Rig:
         clock: Clock,
         encoder: Encoder = PERFECT,
         temp_fill: int = 0,
+        function_error: float = 0.0,
     ) -> None:
-        self.machine = Machine(program, temp_fill)
+        self.machine = Machine(program, temp_fill, function_error=function_error)
         self.block, self.instance = block, instance
         self.clock, self.encoder = clock, encoder
         self.plant = Plant(travel)

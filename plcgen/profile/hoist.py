@@ -9,13 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, floor, log10, sqrt
+from math import sqrt
 
-import numpy as np
-
-from plcgen.job import HoistLimits, Job
+from plcgen.job import HoistLimits
 from plcgen.profile.envelope import Envelope
-from plcgen.profile.reference import Phase, Reference, Samples
+from plcgen.profile.reference import Phase, Reference
 from plcgen.profile.transition import Transition, reached_velocity
 
 LEG_NAMES = (
@@ -30,9 +28,6 @@ LEG_NAMES = (
     "stopping",
 )
 START_RAMP, CREEP_OUT, ACCELERATE, FULL_SPEED, DECELERATE, CREEP_IN, STOP_RAMP, STOPPING = range(1, 9)
-
-# Share of full speed that the envelope keeps above the setpoint: a hundred times the resolution of REAL.
-ENVELOPE_CLEARANCE = 1e-5
 
 
 @dataclass(frozen=True)
@@ -198,79 +193,3 @@ def plan_stop(limits: HoistLimits, velocity: float, acceleration: float) -> Refe
     t2 = max(0.0, (corner - peak**2 / (2 * m)) / peak) if peak > 0 else 0.0
     phases = (Phase(t1, -m, STOPPING), Phase(t2, 0.0, STOPPING), Phase(peak / m, m, STOPPING))
     return Reference(phases, velocity, acceleration)
-
-
-def derive(job: Job) -> Trip:
-    """The trip of a job. Raises JobError where the limits cannot be met or cannot be sampled."""
-    limits = job.hoist
-    _refuse_short_travel(job)
-    trip = plan_trip(limits, limits.travel)
-    _refuse_coarse_sampling(job, trip)
-    _refuse_low_envelope(job, trip)
-    return trip
-
-
-def _refuse_short_travel(job: Job) -> None:
-    limits, unit = job.hoist, job.length_unit
-    needed = creeping_travel(limits)
-    if limits.travel < needed:
-        raise job.error(
-            "hoist.travel",
-            f"travel = {limits.travel:.10g} {unit} is too short: start ramp, creep_out, creep_in and stop ramp "
-            f"need {_rounded_up(needed)} {unit}; shorten creep_out or creep_in, or lower creep_velocity",
-        )
-
-
-def _refuse_coarse_sampling(job: Job, trip: Trip) -> None:
-    """Ten samples in the shortest phase of jerk. With them the loop over travel cannot swing either.
-
-    The setpoint v(S) is held for one scan and S may be a scan old, so near a point of the law the error of travel e
-    obeys e(k+1) = e(k) - g e(k-1) with g = T dv/dS = T a/v; its roots are real, the error dies out without swinging,
-    while g <= 1/4. No a/v of the law is above sqrt(m/(2 lo)), and the start ramp to lo has t1 <= sqrt(lo/m), so
-    T <= t1/10 keeps g below 0.071.
-    """
-    shortest = trip.shortest_jerk_time
-    if job.sample_period > shortest / 10:
-        raise job.error(
-            "sample_period",
-            f"sample_period = {job.sample_period:g} s is too long: the shortest phase lasts {shortest:.4g} s "
-            f"and needs ten samples; {_way_out(trip)}",
-        )
-
-
-def _rounded_up(value: float) -> str:
-    """Four digits that are not below the value."""
-    step = 10.0 ** (floor(log10(value)) - 3)
-    return f"{ceil(value / step) * step:.10g}"
-
-
-def _way_out(trip: Trip) -> str:
-    """Of a sample period that is too long: a shorter one in whole milliseconds, or longer phases."""
-    milliseconds = floor(trip.shortest_jerk_time * 100)
-    # Where the travel leaves room for hardly more than creep speed, the change to full speed is what is short.
-    barely_faster = trip.cruise_velocity < trip.limits.max_velocity and trip.shortest_jerk_time < trip.stop.jerk_time
-    remedy = "lengthen travel" if barely_faster else "lower jerk"
-    return f"write at most {milliseconds / 1000:g}, or {remedy}" if milliseconds else remedy
-
-
-def _refuse_low_envelope(job: Job, trip: Trip) -> None:
-    """The protection envelope must lie above the setpoint wherever the trip goes, by more than REAL may blur."""
-    motion = trip.reference.at_time(_dense_times(trip.reference))
-    margin: Samples = trip.envelope.velocity(motion.travel, trip.distance - motion.travel) - motion.velocity
-    worst = int(np.argmin(margin))
-    shortage = ENVELOPE_CLEARANCE * job.hoist.max_velocity - margin[worst]
-    if shortage > 0:
-        unit = job.length_unit
-        raise job.error(
-            "hoist.envelope",
-            f"the envelope is {shortage:.3g} {unit}/s too low {trip.distance - motion.travel[worst]:.4g} {unit} before "
-            "the end, where it must lie above the setpoint; raise overspeed_factor, the tracking values, "
-            "brake_deceleration or end_velocity, or shorten reaction_time",
-        )
-
-
-def _dense_times(reference: Reference) -> Samples:
-    """Two hundred instants in every phase, however short it is beside the others, and every corner."""
-    corners = reference.corner_times
-    phases = len(corners) - 1
-    return np.interp(np.linspace(0.0, phases, 200 * phases + 1), np.arange(phases + 1), corners)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
 from plcgen.profile.hoist import Trip, creeping_travel, stop_deceleration
+from plcgen.profile.hoist_rules import PHASE_SAMPLES, encoder_step, position_window
 from plcgen.profile.transition import Transition
 
 # One scan may be lost before a change of the travel counts as a jump.
@@ -15,8 +16,6 @@ TRAVEL_RANGE_FACTOR = 4.0
 VELOCITY_RANGE_FACTOR = 10.0
 # Below this share of creep speed a restart takes the hoist as standing.
 REST_SHARE = 0.01
-# Two scans at creep speed: one that the stop ramp may begin late, one for a measurement that is a scan old.
-WINDOW_SCANS = 2.0
 
 
 def hoist_constants(job: Job, trip: Trip) -> tuple[ConstantGroup, ...]:
@@ -63,20 +62,23 @@ def hoist_constants(job: Job, trip: Trip) -> tuple[ConstantGroup, ...]:
             "Supervision",
             (
                 Constant("OVERWIND", limits.envelope.overwind, unit, "travel beyond a stop that is an error"),
-                Constant("POSITION_WINDOW", position_window(job), unit, "at the stop: two scans at creep speed"),
+                Constant(
+                    "POSITION_WINDOW", position_window(job), unit, "at the stop: two scans at creep speed and 1 mm"
+                ),
                 Constant("JUMP_SCANS", JUMP_SCANS, "1", "scans at envelope speed that are no jump"),
-                Constant("MAX_CYCLE_TIME", trip.shortest_jerk_time / 10, "s", "a tenth of the shortest phase of jerk"),
+                Constant("ENCODER_STEP", encoder_step(job), unit, "1 mm, a step of the encoder on top"),
+                Constant(
+                    "MAX_CYCLE_TIME",
+                    trip.shortest_jerk_time / PHASE_SAMPLES,
+                    "s",
+                    "a tenth of the shortest phase of jerk",
+                ),
                 Constant("TRAVEL_RANGE", TRAVEL_RANGE_FACTOR * limits.travel, unit, "stops within this are plausible"),
                 Constant("VELOCITY_RANGE", VELOCITY_RANGE_FACTOR * limits.max_velocity, speed, "plausible speeds"),
                 Constant("REST_VELOCITY", REST_SHARE * limits.creep_velocity, speed, "at rest after a restart"),
             ),
         ),
     )
-
-
-def position_window(job: Job) -> float:
-    """Distance from the stop within which the hoist counts as arrived."""
-    return WINDOW_SCANS * job.hoist.creep_velocity * job.sample_period
 
 
 def _cruise_comment(trip: Trip) -> str:

@@ -74,9 +74,8 @@ def block_names(job: Job, target: str) -> BlockNames:
     blocks = job.blocks
     if target == "s7-300-scl":
         return BlockNames(f"FB{blocks.fb}", f"DB{blocks.db}", f"FC{blocks.fc}", f"FC{blocks.fc + 1}", "OB100", "OB35")
-    symbols = (blocks.fb_name, blocks.db_name, f"{job.name}_Velocity", f"{job.name}_Travel")
-    calls = (f"{job.name}_Restart", f"{job.name}_Cyclic")
-    return BlockNames(*(f'"{symbol}"' for symbol in symbols + calls))
+    fb, *others = blocks.code_names
+    return BlockNames(*(f'"{symbol}"' for symbol in (fb, blocks.db_name, *others)))
 
 
 def hoist_context(job: Job, trip: Trip, target: str, verified: bool) -> dict[str, object]:
@@ -117,8 +116,8 @@ def _symbols(job: Job) -> tuple[SymbolLine, ...]:
     rows = (
         (blocks.fb_name, fb, fb, "speed of the hoist as a function of travel"),
         (blocks.db_name, _address("DB", blocks.db), fb, "instance data of the hoist"),
-        (f"{job.name}_Velocity", *[_address("FC", blocks.fc)] * 2, "velocity of a transition"),
-        (f"{job.name}_Travel", *[_address("FC", blocks.fc + 1)] * 2, "travel of a transition"),
+        (blocks.velocity_name, *[_address("FC", blocks.fc)] * 2, "velocity of a transition"),
+        (blocks.travel_name, *[_address("FC", blocks.fc + 1)] * 2, "travel of a transition"),
     )
     return tuple(SymbolLine(*row) for row in rows)
 

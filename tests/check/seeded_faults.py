@@ -20,6 +20,8 @@ from plcgen.job import parse_job
 from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
 from plcgen.plc.source import decode_source
 
+# Acceleration by a short transition, deceleration by a full one, a jerk that is not 1, and an
+# envelope in which each of its four curves counts somewhere: few lines are without effect.
 JOB = """
 name = "Small"
 method = "hoist"
@@ -28,15 +30,23 @@ length_unit = "m"
 sample_period = 0.02
 
 [hoist]
-travel = 16.0
-max_velocity = 2.0
-acceleration = 0.8
+travel = 24.0
+max_velocity = 4.0
+acceleration = 2.5
 deceleration = 0.7
-jerk = 1.0
+jerk = 1.25
 creep_velocity = 0.4
 creep_acceleration = 0.5
-creep_out = 0.3
-creep_in = 0.4
+creep_out = 0.1
+creep_in = 0.15
+
+[hoist.envelope]
+overspeed_factor = 1.08
+tracking_factor = 1.1
+tracking_margin = 0.2
+brake_deceleration = 1.1
+reaction_time = 0.4
+end_velocity = 0.55
 """
 
 SWAPS = {

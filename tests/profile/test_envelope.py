@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from plcgen.job import read_job
-from plcgen.profile.hoist import derive, plan_trip
+from plcgen.profile.hoist import plan_trip
+from plcgen.profile.hoist_rules import derive
 
 JOB = read_job(Path(__file__).parents[2] / "templates" / "jobs" / "hoist.toml")
 TRIP = derive(JOB)
