@@ -8,8 +8,10 @@ sets pc and starts the pass again, at the cost of one unit of the watchdog's bud
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 from typing import Any, NamedTuple, NoReturn
 
 from plcgen.errors import Fault, Location
@@ -151,9 +153,16 @@ class _Flow:
         block_of = _fill(first, len(body))
         labels = {i.name: block_of[p] for p, i in enumerate(body) if isinstance(i, Label)}
         jumps = [(block_of[p], labels[i.label]) for p, i in enumerate(body) if isinstance(i, Jump | Branch)]
-        skipped = (range(source + 1 if source < target else 0, target) for source, target in jumps)
-        guarded = frozenset(number for run in skipped for number in run)
-        return _Flow(first, labels, guarded, any(target <= source for source, target in jumps))
+        skipped = [range(source + 1 if source < target else 0, target) for source, target in jumps]
+        return _Flow(first, labels, _covered(skipped), any(target <= source for source, target in jumps))
+
+
+def _covered(ranges: Sequence[range]) -> frozenset[int]:
+    """Every number in one of the ranges."""
+    edges = Counter(run.start for run in ranges)
+    edges.subtract(run.stop for run in ranges)
+    depths = accumulate(edges[number] for number in range(max(edges, default=0) + 1))
+    return frozenset(number for number, depth in enumerate(depths) if depth)
 
 
 def _starts_block(body: Sequence[Instruction], position: int, used: set[str]) -> bool:

@@ -8,6 +8,7 @@ DATE_AND_TIME their BCD digits).
 from __future__ import annotations
 
 from array import array
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -42,6 +43,7 @@ class Elementary:
     code: str
     family: Family
     default: int | float = 0
+    nesting = 0
 
     def __str__(self) -> str:
         return self.name
@@ -132,6 +134,7 @@ class String:
 
     length: int = 254
     alignment = WORD_BITS
+    nesting = 0
 
     def __str__(self) -> str:
         return f"STRING[{self.length}]"
@@ -170,6 +173,11 @@ class Array:
         return prod(high - low + 1 for low, high in self.bounds)
 
     @property
+    def nesting(self) -> int:
+        """How many types lie within each other here."""
+        return 1 + self.element.nesting
+
+    @property
     def stride(self) -> int:
         """Bits from one element to the next."""
         return align(self.element.bits, self.element.alignment)
@@ -195,9 +203,9 @@ class Array:
         pairs = zip(indices, self.bounds, self.strides, strict=True)
         return sum((index - low) * stride for index, (low, _), stride in pairs)
 
-    def offsets(self) -> list[int]:
+    def offsets(self) -> Iterator[int]:
         """Bits from the start to each element, in the order of an initial value list."""
-        return [self.offset(indices) for indices in product(*(range(low, high + 1) for low, high in self.bounds))]
+        return map(self.offset, product(*(range(low, high + 1) for low, high in self.bounds)))
 
 
 @dataclass(frozen=True)
@@ -221,6 +229,11 @@ class Structure:
 
     def __str__(self) -> str:
         return self.name or "STRUCT"
+
+    @cached_property
+    def nesting(self) -> int:
+        """How many types lie within each other here."""
+        return 1 + max((member.type.nesting for member in self.fields), default=0)
 
     @cached_property
     def _by_name(self) -> dict[str, Field]:

@@ -6,6 +6,9 @@ Lowering ends with it. What it finds is a defect of a lowering, never of a user'
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import reduce
+from heapq import heappop, heappush
+from operator import or_
 
 from plcgen.plc.core import (
     FRAME,
@@ -166,26 +169,38 @@ def _registers_read(function: Function, instruction: Instruction) -> Iterator[Re
 
 
 def _check_assigned(function: Function, labels: dict[str, int]) -> None:
-    """Walk until what is known to be set at each instruction no longer shrinks."""
+    for position, assigned in _assigned(function, labels).items():
+        for register in _registers_read(function, function.body[position]):
+            if not assigned >> register.number & 1:
+                raise _broken(function, function.body[position], f"{register} is read before it is set")
+
+
+def _assigned(function: Function, labels: dict[str, int]) -> dict[int, int]:
+    """For each instruction that is reached, the registers that are set on every way to it, a bit for each.
+
+    Walks until nothing is lost any more; in the order of the text, so that without loops each instruction is met once,
+    after all that jump to it.
+    """
     body = function.body
-    entry = frozenset(p.number for p in (*function.parameters, *function.temporaries) if isinstance(p, Register))
-    known: dict[int, frozenset[int]] = {}
-    pending = [(0, entry)]
+    known = {0: _mask((*function.parameters, *function.temporaries))}
+    pending, waiting = [0], {0}
     while pending:
-        position, assigned = pending.pop()
+        position = heappop(pending)
+        waiting.remove(position)
         if position == len(body):
             raise CoreError(f"{function.name}: the end is reached without a return")
-        before = known.get(position)
-        assigned = assigned if before is None else assigned & before
-        if assigned == before:
-            continue
-        known[position] = assigned
-        after = assigned | {place.number for place in _writes(body[position]) if isinstance(place, Register)}
-        pending.extend((successor, after) for successor in _successors(body, position, labels))
-    for position, assigned in known.items():
-        for register in _registers_read(function, body[position]):
-            if register.number not in assigned:
-                raise _broken(function, body[position], f"{register} is read before it is set")
+        after = known[position] | _mask(_writes(body[position]))
+        for successor in _successors(body, position, labels):
+            before = known.get(successor)
+            known[successor] = after if before is None else after & before
+            if known[successor] != before and successor not in waiting:
+                heappush(pending, successor)
+                waiting.add(successor)
+    return known
+
+
+def _mask(places: Iterable[Place]) -> int:
+    return reduce(or_, (1 << place.number for place in places if isinstance(place, Register)), 0)
 
 
 def _successors(body: tuple[Instruction, ...], position: int, labels: dict[str, int]) -> tuple[int, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import perf_counter
+
 import pytest
 
 from plcgen.plc.core import (
@@ -140,6 +142,18 @@ def test_result_must_be_set_on_every_path() -> None:
     function = Function("FC2", SOURCE, (END,), HERE, results=(Y,))
     with pytest.raises(CoreError, match="FC2: return: %2 is read before it is set"):
         verify(Program({"FC2": function}))
+
+
+def test_long_bodies_are_checked_in_time_that_grows_with_their_length() -> None:
+    """A long IF-ELSIF chain: every branch joins the others at the end."""
+    chain: list[Instruction] = []
+    for number in range(3000):
+        value = Register(100 + number, REAL)
+        chain += [Compute(HERE, value, move(REAL), (A,)), Branch(HERE, B, f"L{number}")]
+        chain += [Compute(HERE, A, move(REAL), (value,)), Jump(HERE, "end"), Label(HERE, f"L{number}")]
+    start = perf_counter()
+    verify(program(*chain, Label(HERE, "end"), END))
+    assert perf_counter() - start < 5.0
 
 
 def test_loop_that_sets_before_it_reads_is_sound() -> None:

@@ -10,9 +10,10 @@ from plcgen.plc.lexer import Lexer, Token, TokenKind
 from plcgen.plc.scl.dialects import Dialect
 from plcgen.plc.source import SourceText, Span
 
-MAX_NESTING = 50
+MAX_NESTING = 64
+"""Bound of the depth of a tree, for every pass over it: statements, types, brackets, right operands all count."""
 MAX_OPERATORS = 200
-"""Bounds of one expression; together with MAX_NESTING they bound the depth of its tree for every later pass."""
+"""Bound of one expression. A chain of left operands is as long, but no pass descends it by recursion."""
 
 
 class Cursor:

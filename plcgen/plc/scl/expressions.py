@@ -50,7 +50,8 @@ def _operators(tokens: Cursor, loosest: int) -> Expression:
     left = _unary(tokens)
     while PRECEDENCE.get(tokens.current.word, -1) >= loosest:
         operator = _operator(tokens)
-        right = _operators(tokens, PRECEDENCE[operator.word] + 1)
+        with tokens.nested():
+            right = _operators(tokens, PRECEDENCE[operator.word] + 1)
         left = _binary(left, operator, right)
     return left
 
@@ -74,7 +75,8 @@ def _unary(tokens: Cursor) -> Expression:
         # The sign belongs to the number: 2147483648 alone does not fit, -2147483648 does.
         negative = literal(tokens, negative=True)
         return Literal(operator.span.to(negative.span), negative.value, negative.type_name, negative.based)
-    operand = _unary(tokens)
+    with tokens.nested():
+        operand = _unary(tokens)
     return Unary(operator.span.to(operand.span), operator.word, operand)
 
 
@@ -82,7 +84,8 @@ def _power(tokens: Cursor) -> Expression:
     base = _primary(tokens)
     while tokens.at("**"):
         operator = _operator(tokens)
-        exponent = _unary(tokens) if tokens.at(*UNARY) else _primary(tokens)
+        with tokens.nested():
+            exponent = _unary(tokens) if tokens.at(*UNARY) else _primary(tokens)
         base = _binary(base, operator, exponent)
     return base
 

@@ -127,9 +127,9 @@ class Calls(Expressions):
 
     def _bind(self, node: syntax.Call, interface: Interface) -> Bound:
         """Each argument with its parameter."""
-        arguments = node.arguments
-        if len(arguments) == 1 and arguments[0].name is None and len(interface.parameters) == 1:
-            return [(interface.parameters[0], arguments[0])]
+        arguments, parameters = node.arguments, interface.parameters
+        if len(arguments) == len(parameters) == 1 and arguments[0].name is None and parameters[0].kind is not OUTPUT:
+            return [(parameters[0], arguments[0])]
         bound = [(self._parameter(interface, argument), argument) for argument in arguments]
         names = [parameter.name for parameter, _ in bound]
         for number, name in enumerate(names):

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from contextlib import contextmanager
+from dataclasses import dataclass
 
-from plcgen.plc.builder import Builder
-from plcgen.plc.core import DataBlock, Literal
-from plcgen.plc.layout import Member, arrange, write
+from plcgen.plc.core import DataBlock
+from plcgen.plc.layout import write
 from plcgen.plc.scl import syntax
 from plcgen.plc.scl.dialects import PARAMETER_TYPES, UNSUPPORTED_TYPES
-from plcgen.plc.scl.lowering_values import Untyped, Value, combine, expect, literal
+from plcgen.plc.scl.lowering_types import Declarations
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.source import SourceText
 from plcgen.plc.suggest import did_you_mean
-from plcgen.plc.types import BYTE_BITS, DINT, Array, Elementary, String, Structure, Type, elementary
-
-LONGEST_STRING = 254
-LARGEST_ARRAY = 1 << 24  # bytes
+from plcgen.plc.types import Array, Structure, Type
 
 STORED = (SectionKind.INPUT, SectionKind.OUTPUT, SectionKind.IN_OUT, SectionKind.STATIC)
 PARAMETERS = STORED[:3]
@@ -51,159 +48,6 @@ class Interface:
         return tuple(parameter for parameter in self.parameters if parameter.kind in kinds)
 
 
-@dataclass
-class Declarations:
-    """Types and constants as one block sees them."""
-
-    source: SourceText
-    catalogue: Catalogue
-    constants: dict[str, Value] = field(default_factory=dict)
-
-    def define(self, constants: Sequence[syntax.Constant]) -> None:
-        """Take in CONST or VAR CONSTANT, each able to use those before it."""
-        for constant in constants:
-            value = self.constant(constant.value)
-            if constant.type is not None:
-                kind = self.type_of(constant.type)
-                value = expect(self.source, Builder(constant.span), value, kind, constant.value.span)
-            self.constants[constant.name.casefold()] = value
-
-    def constant(self, node: syntax.InitialValue) -> Value:
-        """The value of a constant expression."""
-        builder = Builder(node.span)
-        match node:
-            case syntax.Literal():
-                return literal(self.source, node)
-            case syntax.Variable(name=name, selectors=()):
-                if name.casefold() in self.constants:
-                    return self.constants[name.casefold()]
-                hint = did_you_mean(name, self.constants)
-                raise self.source.error(f"{name} is no constant{hint}", node.span)
-            case syntax.Unary(operator=symbol, operand=operand):
-                return self._folded(builder, "NEG" if symbol == "-" else symbol, [operand], node)
-            case syntax.Binary(operator=symbol, left=left, right=right):
-                return self._folded(builder, symbol, [left, right], node)
-        raise self.source.error("not a constant expression", node.span)
-
-    def _folded(
-        self, builder: Builder, symbol: str, nodes: Sequence[syntax.Expression], whole: syntax.Unary | syntax.Binary
-    ) -> Value:
-        values = [self.constant(node) for node in nodes]
-        if symbol == "+" and len(values) == 1:
-            return values[0]
-        span = whole.operator_span if isinstance(whole, syntax.Binary) else whole.span
-        value = combine(self.source, builder, symbol, values, span)
-        if isinstance(value, Literal | Untyped):
-            return value
-        raise self.source.error(f"constant expression has no value: {symbol} of these operands is a fault", span)
-
-    def integer(self, node: syntax.Expression) -> int:
-        """A constant whole number, as in array bounds."""
-        operand = expect(self.source, Builder(node.span), self.constant(node), DINT, node.span)
-        assert isinstance(operand, Literal)
-        return int(operand.value)
-
-    def indices(self, step: syntax.Index, kind: Array) -> tuple[int, ...]:
-        """Constant indices within the bounds of an array."""
-        indices = tuple(self.integer(index) for index in step.indices)
-        if len(indices) != len(kind.bounds):
-            raise self.source.error(f"{len(indices)} indices for the {len(kind.bounds)} of {kind}", step.span)
-        for index, (low, high) in zip(indices, kind.bounds, strict=True):
-            if not low <= index <= high:
-                raise self.source.error(f"index {index} outside {low} .. {high}", step.span)
-        return indices
-
-    # ------------------------------------------------------------------------------------------------------- types
-
-    def type_of(self, spec: syntax.TypeSpec) -> Type:
-        """The type that a declaration means."""
-        match spec:
-            case syntax.StringSpec(length=length):
-                return String(LONGEST_STRING) if length is None else self._string(length)
-            case syntax.ArraySpec(bounds=bounds, element=element):
-                return self._array(spec, tuple(self._bounds(low, high) for low, high in bounds), self.type_of(element))
-            case syntax.StructSpec(fields=fields):
-                return arrange("", [self.members(fields)])
-            case syntax.NamedType(name=name):
-                return elementary(name) or self.catalogue.structure(self.source, spec)
-
-    def _string(self, node: syntax.Expression) -> String:
-        length = self.integer(node)
-        if not 1 <= length <= LONGEST_STRING:
-            raise self.source.error(f"STRING length {length} outside 1 .. {LONGEST_STRING}", node.span)
-        return String(length)
-
-    def _array(self, spec: syntax.ArraySpec, bounds: tuple[tuple[int, int], ...], element: Type) -> Array:
-        kind = Array(bounds, element)
-        if kind.bits > LARGEST_ARRAY * BYTE_BITS:
-            raise self.source.error(f"{kind} takes {kind.bits // BYTE_BITS} bytes, more than any CPU has", spec.span)
-        return kind
-
-    def _bounds(self, low: syntax.Expression, high: syntax.Expression) -> tuple[int, int]:
-        first, last = self.integer(low), self.integer(high)
-        if last < first:
-            raise self.source.error(f"array bounds {first} .. {last} run backwards", high.span)
-        return first, last
-
-    def members(self, declarations: Sequence[syntax.Declaration]) -> list[Member]:
-        """Declarations as members of a structure, with their initial values."""
-        return [
-            Member(declaration.name, kind := self.type_of(declaration.type), self._initial(declaration, kind), view)
-            for declaration in declarations
-            for view in [self._viewed(declaration, declarations)]
-        ]
-
-    def _viewed(self, declaration: syntax.Declaration, others: Sequence[syntax.Declaration]) -> str | None:
-        if declaration.view_of is None:
-            return None
-        viewed = next((d for d in others if d.name.casefold() == declaration.view_of.casefold()), None)
-        if viewed is None:
-            raise self.source.error(f"{declaration.view_of} is not declared in this section", declaration.span)
-        wide, room = self.type_of(declaration.type), self.type_of(viewed.type)
-        if wide.bits > room.bits:
-            message = f"{declaration.name} has {wide.bits} bits, {viewed.name} beneath it only {room.bits}"
-            raise self.source.error(message, declaration.span)
-        return viewed.name
-
-    # ---------------------------------------------------------------------------------------------- initial values
-
-    def _initial(self, declaration: syntax.Declaration, kind: Type) -> bytes | None:
-        return None if declaration.initial is None else self.image(declaration.initial, kind)
-
-    def image(self, node: syntax.InitialValue, kind: Type) -> bytes:
-        """The bytes of an initial value."""
-        if isinstance(kind, Array):
-            return self._array_image(node, kind)
-        if isinstance(kind, Structure) or isinstance(node, syntax.InitialList | syntax.Repetition):
-            raise self.source.error(f"an initial value for {kind} is not supported; give its members theirs", node.span)
-        operand = expect(self.source, Builder(node.span), self.constant(node), kind, node.span)
-        assert isinstance(operand, Literal)
-        if isinstance(operand.value, bytes):
-            return operand.value
-        assert isinstance(kind, Elementary)
-        return kind.encode(operand.value)
-
-    def _array_image(self, node: syntax.InitialValue, kind: Array) -> bytes:
-        values = list(self._spread(node))
-        if len(values) > kind.count:
-            raise self.source.error(f"{len(values)} initial values for {kind.count} elements", node.span)
-        image = bytearray(kind.initial)
-        for offset, value in zip(kind.offsets(), values, strict=False):
-            write(image, offset, kind.element, self.image(value, kind.element))
-        return bytes(image)
-
-    def _spread(self, node: syntax.InitialValue) -> Iterator[syntax.InitialValue]:
-        if isinstance(node, syntax.InitialList):
-            for value in node.values:
-                yield from self._spread(value)
-        elif isinstance(node, syntax.Repetition):
-            for _ in range(self.integer(node.count)):
-                for value in node.values:
-                    yield from self._spread(value)
-        else:
-            yield node
-
-
 class Catalogue:
     """All blocks of a program by absolute name, and what they declare; each worked out once, when first asked for."""
 
@@ -213,6 +57,7 @@ class Catalogue:
         self._interfaces: dict[str, Interface] = {}
         self._structures: dict[str, Structure] = {}
         self._pending: set[str] = set()
+        self._depth = 0
         self.created: dict[str, DataBlock] = {}
         for block in blocks:
             self._add(block)
@@ -246,6 +91,13 @@ class Catalogue:
 
     # -------------------------------------------------------------------------------------------------- structures
 
+    @contextmanager
+    def nested(self) -> Iterator[int]:
+        """Enter a type within the one being worked out; gives the depth."""
+        self._depth += 1
+        yield self._depth
+        self._depth -= 1
+
     def structure(self, source: SourceText, spec: syntax.NamedType) -> Structure:
         """The structure of a UDT, or the instance data of an FB."""
         block = self.find(spec.name, BlockKind.UDT, BlockKind.FB)
@@ -267,16 +119,20 @@ class Catalogue:
 
     def _arranged(self, block: syntax.Block) -> Structure:
         declarations = self.declarations(block)
+        if block.kind is BlockKind.UDT and block.structure and not block.structure.fields:
+            raise block.source.error(f"{block.name} has no members; declare one or remove it", block.span)
         if block.structure is not None:
-            return arrange(self.name_of(block), [declarations.members(block.structure.fields)])
-        sections = [declarations.members(declared(block, kind)) for kind in STORED]
-        return arrange(self.name_of(block), sections)
+            sections = [declarations.members(block.structure.fields)]
+        else:
+            sections = [declarations.members(declared(block, kind)) for kind in STORED]
+        return declarations.arranged(self.name_of(block), sections, block.span)
 
     # -------------------------------------------------------------------------------------------------- interfaces
 
     def interface(self, block: syntax.Block) -> Interface:
         """What callers see of an FB, FC or OB."""
         if block.name not in self._interfaces:
+            _refuse_parameters_of_ob(block)
             declarations = self.declarations(block)
             parameters = tuple(
                 Parameter(declaration.name, kind, declarations.type_of(declaration.type))
@@ -369,6 +225,15 @@ def find_member(source: SourceText, kind: Type, step: syntax.Member) -> tuple[Ty
         hint = did_you_mean(step.name, [member.name for member in kind.fields])
         raise source.error(f"{kind} has no member {step.name}{hint}", step.span)
     return member.type, member.bit
+
+
+def _refuse_parameters_of_ob(block: syntax.Block) -> None:
+    """Nobody calls an OB. TIA hands some of them inputs, which no machine here can do."""
+    section = next((s for s in block.sections if s.kind in PARAMETERS and s.declarations), None)
+    if block.kind is BlockKind.OB and section:
+        word = section.kind.value
+        message = f"an OB has no {word} here; its start information lies in the first 20 bytes of VAR_TEMP"
+        raise block.source.error(message, section.span)
 
 
 def declared(block: syntax.Block, *kinds: SectionKind) -> list[syntax.Declaration]:

@@ -13,7 +13,7 @@ from plcgen.plc.scl import syntax
 from plcgen.plc.scl.functions import FUNCTIONS, StandardFunction
 from plcgen.plc.scl.lowering_places import Places
 from plcgen.plc.scl.lowering_values import Untyped, Value, combine, expect, literal
-from plcgen.plc.scl.walk import find
+from plcgen.plc.scl.walk import find, left_chain
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, Elementary, Type
 
@@ -36,9 +36,9 @@ class Expressions(Places):
             case syntax.Unary(operator="+", operand=operand):
                 return self.value(operand)
             case syntax.Unary(operator=symbol, operand=operand):
-                return self._apply("NEG" if symbol == "-" else symbol, [operand], node.span)
-            case syntax.Binary(operator=symbol, left=left, right=right):
-                return self._apply(symbol, [left, right], node.operator_span)
+                return self._combine("NEG" if symbol == "-" else symbol, [self.value(operand)], node.span)
+            case syntax.Binary():
+                return self._chained(node)
             case syntax.Call():
                 return self._called(node)
 
@@ -49,8 +49,14 @@ class Expressions(Places):
     def condition(self, node: syntax.Expression) -> Operand:
         return self.operand(node, BOOL)
 
-    def _apply(self, symbol: str, nodes: Sequence[syntax.Expression], span: Span) -> Value:
-        return self._combine(symbol, self.values(nodes), span)
+    def _chained(self, node: syntax.Binary) -> Value:
+        first, chain = left_chain(node)
+        left = self.value(first)
+        for link in chain:
+            self._refuse_absent(link.operator, link.operator_span)
+            left = self.taken(left) if calls_block([link.right]) else left
+            left = self._combine(link.operator, [left, self.value(link.right)], link.operator_span)
+        return left
 
     def values(self, nodes: Sequence[syntax.Expression]) -> list[Value]:
         """Values from left to right; one that a later call could change is taken before that call."""
@@ -64,6 +70,10 @@ class Expressions(Places):
         if isinstance(value, Literal | Untyped) or not isinstance(value.type, Elementary):
             return value
         return self.builder.compute(move(value.type), value)
+
+    def _refuse_absent(self, name: str, span: Span) -> None:
+        if name in self.dialect.absent:
+            raise self.source.error(f"no {name} in {self.dialect.title}; write {self.dialect.absent[name]}", span)
 
     def _combine(self, symbol: str, values: Sequence[Value], span: Span) -> Value:
         self.builder.span = span
@@ -84,8 +94,7 @@ class Expressions(Places):
         name = node.callee.name.upper()
         if node.callee.scope is not syntax.Scope.PLAIN or node.callee.selectors or self.local(node.callee):
             return None
-        if name in self.dialect.absent:
-            raise self.source.error(f"no {name} in {self.dialect.title}; write {self.dialect.absent[name]}", node.span)
+        self._refuse_absent(name, node.span)
         if name in FUNCTIONS:
             return self._standard(name, FUNCTIONS[name], node)
         row = conversion_named(name)

@@ -17,11 +17,11 @@ from plcgen.plc.scl.dialects import FLAG_WORDS, Dialect
 from plcgen.plc.scl.lowering_declarations import (
     PARAMETERS,
     Catalogue,
-    Declarations,
     Interface,
     declared,
     find_member,
 )
+from plcgen.plc.scl.lowering_types import Declarations
 from plcgen.plc.scl.lowering_values import Untyped, Value, expect
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.scl.walk import find
@@ -211,6 +211,13 @@ def _type_name(value: Place | Literal | Untyped) -> str:
 # ---------------------------------------------------------------------------------------------------------- scopes
 
 
+_NO_DEFAULT = {
+    SectionKind.INPUT: "every call of an FC gives it a value; remove it here",
+    SectionKind.IN_OUT: "every call of an FC gives it a value; remove it here",
+    SectionKind.OUTPUT: "an output of an FC begins without one; assign it at the start of the body",
+}
+
+
 @dataclass
 class _ScopeBuilder:
     """Gives every declared name of a block its place."""
@@ -228,12 +235,20 @@ class _ScopeBuilder:
         else:
             self._declare_parameters(addressed)
         for declaration in declared(self.block, SectionKind.TEMP, *self._locals()):
+            self._refuse_initial(declaration, "only VAR of an FB keeps one; assign it at the start of the body")
             self._declare(declaration, self._home(declaration, addressed, parameter=False))
         return self.scope
 
     def _locals(self) -> tuple[SectionKind, ...]:
         """VAR of an FC or OB is temporary too."""
         return () if self.interface.instance is not None else (SectionKind.STATIC,)
+
+    def _refuse_initial(self, declaration: syntax.Declaration, way_out: str) -> None:
+        """Nothing here outlives a call, so nobody would write the value."""
+        for item in (declaration, *find(declaration.type, syntax.Declaration)):
+            if item.initial is not None:
+                message = f"{item.name} takes no initial value: {way_out}"
+                raise self.block.source.error(message, item.initial.span)
 
     def _declare(self, declaration: syntax.Declaration, place: Place) -> None:
         self.scope.declare(self.block.source, declaration, place)
@@ -254,6 +269,7 @@ class _ScopeBuilder:
             self.scope.results.append(result)
         for kind in PARAMETERS:
             for declaration in declared(self.block, kind):
+                self._refuse_initial(declaration, _NO_DEFAULT[kind])
                 place = self._home(declaration, addressed, parameter=kind is not SectionKind.OUTPUT)
                 self._declare(declaration, place)
                 if declaration.view_of is None and kind is not SectionKind.OUTPUT:
@@ -266,8 +282,17 @@ class _ScopeBuilder:
         kind = self.declarations.type_of(declaration.type)
         if declaration.view_of is not None:
             return self._view(declaration, kind)
+        if not parameter:
+            self._refuse_instance(declaration, kind)
         in_memory = self.block.kind is BlockKind.OB or declaration.name.casefold() in addressed
         return self._fresh(declaration.name, kind, in_memory, parameter)
+
+    def _refuse_instance(self, declaration: syntax.Declaration, kind: Type) -> None:
+        owner = self.declarations.catalogue.instance_interface(kind.element if isinstance(kind, Array) else kind)
+        if owner is not None:
+            way_out = "which must outlast a call; declare it in VAR of an FB"
+            message = f"{declaration.name} is an instance of {owner.name}, {way_out}"
+            raise self.block.source.error(message, declaration.span)
 
     def _fresh(self, name: str, kind: Type, in_memory: bool, parameter: bool) -> Place:
         if in_memory or not isinstance(kind, Elementary):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import singledispatchmethod
 
-from plcgen.plc.core import Literal, Operand
+from plcgen.plc.core import Literal, Operand, Place
 from plcgen.plc.operators import resolve
 from plcgen.plc.scl import syntax
 from plcgen.plc.scl.lowering_calls import Calls
@@ -21,6 +22,27 @@ class Loop:
 
     repeat: str
     leave: str
+
+
+@dataclass
+class Ranges:
+    """Labels of one CASE, in ascending order."""
+
+    starts: list[int] = field(default_factory=list)
+    labels: list[range] = field(default_factory=list)
+
+    def add(self, new: range) -> range | None:
+        """Take in a label; one that it overlaps, if any."""
+        position = bisect_left(self.starts, new.stop)
+        if position and self.labels[position - 1].stop > new.start:
+            return self.labels[position - 1]
+        self.starts.insert(position, new.start)
+        self.labels.insert(position, new)
+        return None
+
+
+def _spelt(label: range) -> str:
+    return f"{label.start}" if len(label) == 1 else f"{label.start} .. {label.stop - 1}"
 
 
 class Statements(Calls):
@@ -53,9 +75,16 @@ class Statements(Calls):
         target = self.place(node.target)
         if node.operator is not None:
             value = self._combine(node.operator, [target, value], node.span)
+        self._refuse_instance(target, node)
         operand = expect(self.source, self.builder, value, target.type, node.value.span)
         self.builder.span = node.span
         self.builder.move(target, operand)
+
+    def _refuse_instance(self, target: Place, node: syntax.Assignment) -> None:
+        owner = self.catalogue.instance_interface(target.type)
+        if owner is not None:
+            message = f"an instance of {owner.name} cannot be assigned; assign its members one by one"
+            raise self.source.error(message, node.target.span)
 
     @statement.register
     def _(self, node: syntax.CallStatement) -> None:
@@ -109,9 +138,10 @@ class Statements(Calls):
         selector = self._kept(expect(self.source, self.builder, selector, kind, node.selector.span))
         end = self.builder.label()
         bodies = [(self.builder.label(), branch) for branch in node.branches]
+        taken = Ranges()
         for label, branch in bodies:
             for case in branch.labels:
-                self._test_case(selector, case, label)
+                self._test_case(selector, case, label, taken)
         self.statements(node.otherwise)
         self.builder.jump(end)
         for label, branch in bodies:
@@ -127,15 +157,26 @@ class Statements(Calls):
         self.builder.move(register, operand)
         return register
 
-    def _test_case(self, selector: Operand, case: syntax.CaseLabel, label: str) -> None:
+    def _test_case(self, selector: Operand, case: syntax.CaseLabel, label: str, taken: Ranges) -> None:
         low = self._case_constant(case.low, selector.type)
         self.builder.span = case.low.span
+        self._take(taken, low, case)
         if case.high is None:
             self.builder.branch(self._row("=", selector, low), label, when=True)
             return
         high = self._case_constant(case.high, selector.type)
         inside = self._row("AND", self._row(">=", selector, low), self._row("<=", selector, high))
         self.builder.branch(inside, label, when=True)
+
+    def _take(self, taken: Ranges, low: Literal, case: syntax.CaseLabel) -> None:
+        high = self._case_constant(case.high, low.type) if case.high else low
+        new = range(int(low.value), int(high.value) + 1)
+        span = case.low.span.to(case.high.span) if case.high else case.low.span
+        if not new:
+            raise self.source.error(f"CASE label {low} .. {high} runs backwards", span)
+        old = taken.add(new)
+        if old is not None:
+            raise self.source.error(f"CASE label {_spelt(new)} overlaps {_spelt(old)} above; remove one", span)
 
     def _case_constant(self, node: syntax.Expression, kind: Type) -> Literal:
         operand = self.operand(node, kind)

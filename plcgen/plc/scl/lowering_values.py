@@ -98,8 +98,9 @@ def adapt(constant: Untyped, kind: Type) -> Literal | None:
 def _adapt_text(text: str, kind: Type) -> Literal | None:
     if kind is CHAR and len(text) == 1:
         return Literal(ord(text), CHAR)
-    fits = isinstance(kind, String) and len(text) <= kind.length
-    return Literal(kind.encode(text), kind) if fits else None
+    if isinstance(kind, String) and len(text) <= kind.length:
+        return Literal(kind.encode(text), kind)
+    return None
 
 
 def _adapt_float(number: float, kind: Type) -> Literal | None:

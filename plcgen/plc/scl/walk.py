@@ -7,6 +7,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import Any, TypeVar
 
+from plcgen.plc.scl.syntax import Binary, Expression
 from plcgen.plc.source import SourceText
 
 Node = TypeVar("Node")
@@ -30,6 +31,15 @@ def _parts(kind: Any) -> tuple[str, ...]:
     if not is_dataclass(kind) or kind is SourceText:
         return ()
     return tuple(field.name for field in reversed(fields(kind)))
+
+
+def left_chain(node: Expression) -> tuple[Expression, list[Binary]]:
+    """The leftmost operand of an expression, and the operators applied to it, in their order: a + b + c is a chain."""
+    chain: list[Binary] = []
+    while isinstance(node, Binary):
+        chain.append(node)
+        node = node.left
+    return node, chain[::-1]
 
 
 def find(root: object, kind: type[Node]) -> Iterator[Node]:
