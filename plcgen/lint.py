@@ -68,17 +68,23 @@ def _foreign(source: SourceText, dialect: Dialect) -> tuple[Finding, ...]:
 
 
 def _type_errors(files: Sequence[_File], dialect: Dialect) -> Iterator[Finding]:
-    """Errors of lowering, at most one a block. With a file that cannot be read too much would be unknown."""
+    """Errors of lowering, at most one a block. With a file that cannot be read too much would be unknown.
+
+    An error in an interface ends the search: what leans on it could not be judged.
+    """
     program = [file for file in files if file.dialect == dialect]
     blocks = [block for file in program for block in file.blocks or ()]
     if any(file.blocks is None for file in program):
         return
+    last: Finding | None = None
     while error := _lowering_error(blocks, dialect):
-        yield _finding(error, program[0].source, "types")
+        found = _finding(error, program[0].source, "types")
         emptied = [_emptied(block) if _holds(block, error) else block for block in blocks]
+        if found != last:
+            yield found
         if emptied == blocks:
             return
-        blocks = emptied
+        blocks, last = emptied, found
 
 
 def _lowering_error(blocks: Sequence[Block], dialect: Dialect) -> SourceError | None:

@@ -50,6 +50,11 @@ def test_one_type_error_for_each_block(tmp_path: Path) -> None:
     ]
 
 
+def test_an_error_in_an_interface_is_told_once(tmp_path: Path) -> None:
+    bad = FC.replace("x : REAL;", "x : REAL; X : REAL;")
+    assert found(tmp_path, a=bad) == ["a.scl:3:21: error: X is declared twice [types]"]
+
+
 def test_a_file_that_does_not_parse_hides_the_types_of_the_others(tmp_path: Path) -> None:
     findings = found(tmp_path, caller=CALLER, callee=FC.replace("2.0;", "2.0"))
     assert len(findings) == 1

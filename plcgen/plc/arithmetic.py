@@ -195,11 +195,16 @@ class _Events:
         return dividend - divisor * self.quotient(dividend, divisor, site)
 
     def to_integer(self, rounding: Callable[[float], int], x: float, minimum: int, bits: int, site: int) -> int:
-        """Round to an integer. What does not fit stays as it is in the accumulator: the bits of the float."""
+        """Round to an integer. What does not fit stays as it is in the accumulator: the bits of the float.
+
+        A CPU rounds to 32 bits at least; a narrower target takes the low bits of that.
+        """
         number = rounding(x) if math.isfinite(x) else None
         if number is not None and minimum <= number < minimum + (1 << bits):
             return number
         self.report(OUT_OF_RANGE, site)
+        if number is not None and bits < 32 and -(1 << 31) <= number < 1 << 31:
+            return _signed(number, minimum, bits)
         pattern = _PURE["real_to_bits"](round_real(x)) if bits <= 32 else _PURE["lreal_to_bits"](x)
         return _signed(pattern, minimum, bits)
 

@@ -219,12 +219,15 @@ class Field:
 
 @dataclass(frozen=True)
 class Structure:
-    """A STRUCT, a UDT, or the instance data of an FB; `initial` is its memory before the first scan."""
+    """A STRUCT, a UDT, or the instance data of an FB.
+
+    `initial` is its memory before the first scan; another makes no other type.
+    """
 
     name: str
     fields: tuple[Field, ...]
     bits: int
-    initial: bytes = field(repr=False)
+    initial: bytes = field(repr=False, compare=False)
     alignment = WORD_BITS
 
     def __str__(self) -> str:

@@ -66,7 +66,7 @@ def read_literal(token: Token, dialect: Dialect, negative: bool = False) -> Lite
     based = "#" in token.text
     if isinstance(value, int):
         lowest, highest = (0, 2**dialect.bits - 1) if based else dialect.integers
-        _check_range(token.text, value, lowest, highest)
+        _check_range(("-" if negative else "") + token.text, value, lowest, highest)
     return Literal(token.span, value, None, based)
 
 
@@ -151,7 +151,10 @@ def _integer_value(body: str, text: str, type_name: str, dialect: Dialect) -> Va
     value = _signed(body, dialect)
     if isinstance(value, float):
         raise LiteralError(f"{text} has a fraction; write REAL#{body} or drop it")
-    return _check_range(text, value, *INTEGER_RANGES[type_name], type_name)
+    lowest, highest = INTEGER_RANGES[type_name]
+    if lowest < 0 and "#" in body and highest < value <= highest - lowest:
+        value -= highest - lowest + 1  # bits, the first of which is the sign
+    return _check_range(text, value, lowest, highest, type_name)
 
 
 def _bool_value(body: str, text: str, type_name: str, dialect: Dialect) -> Value:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from math import isfinite
+from operator import and_, or_, xor
 
 from plcgen.plc.builder import Builder
 from plcgen.plc.core import Literal, Operand
@@ -28,7 +30,9 @@ from plcgen.plc.types import (
     ULINT,
     WORD,
     Elementary,
+    Field,
     String,
+    Structure,
     Type,
     elementary,
 )
@@ -140,8 +144,21 @@ def _misfit(value: Value, kind: Type) -> str:
     if isinstance(value, Untyped):
         limits = f" ({kind.minimum} .. {kind.maximum})" if kind in (*INTEGERS, *BIT_STRINGS) else ""
         return f"constant {value.value!r} is no {kind}{limits}"
+    if isinstance(value.type, Structure) and isinstance(kind, Structure):
+        return f"{value.type} is no {kind}{_difference(value.type, kind)}"
     row = conversion(value.type, kind)
     return f"{value.type} is no {kind}" + (f"; convert with {row.name}" if row else "")
+
+
+def _difference(source: Structure, target: Structure) -> str:
+    for own, other in zip_longest(source.fields, target.fields):
+        if own != other:
+            return f": they differ in {_spelt(own)} and {_spelt(other)}"
+    return "; assign its members one by one"
+
+
+def _spelt(member: Field | None) -> str:
+    return f"{member.name} : {member.type}" if member else "nothing"
 
 
 # ------------------------------------------------------------------------------------------------------ operators
@@ -168,15 +185,21 @@ _EXACT: dict[str, Callable[..., int]] = {
     "-": lambda a, b: a - b,
     "*": lambda a, b: a * b,
 }
+_BITWISE: dict[str, Callable[[int, int], int]] = {"AND": and_, "OR": or_, "XOR": xor}
 
 
 def _fold_exactly(symbol: str, values: Sequence[Value]) -> Value | None:
-    """Whole numbers stay untyped, so that 30000 + 10000 is a DINT; a sign before a number keeps it as written."""
+    """Whole numbers stay untyped, so that 30000 + 10000 is a DINT; a sign before a number keeps it as written.
+
+    So do bits: 16#F0 OR 16#0F fits a BYTE.
+    """
     numbers = [v.value for v in values if isinstance(v, Untyped) and not isinstance(v.value, str)]
     if len(numbers) < len(values):
         return None
     if symbol == "NEG":
         return Untyped(-numbers[0])
+    if symbol in _BITWISE and all(isinstance(value, Untyped) and value.based for value in values):
+        return Untyped(_BITWISE[symbol](*map(int, numbers)), based=True)
     if symbol not in _EXACT or any(isinstance(number, float) for number in numbers):
         return None
     result = _EXACT[symbol](*numbers)

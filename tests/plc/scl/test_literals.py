@@ -39,6 +39,8 @@ def literal(text: str, dialect: Dialect = CLASSIC) -> Literal:
         ("INT#5", 5, "INT"),
         ("INT#-5", -5, "INT"),
         ("INT#16#7F", 127, "INT"),
+        ("INT#16#FFFF", -1, "INT"),
+        ("DINT#16#8000_0000", -(2**31), "DINT"),
         ("L#5", 5, "DINT"),
         ("DINT#-2147483648", -2147483648, "DINT"),
         ("REAL#1.5", 1.5, "REAL"),
@@ -91,6 +93,8 @@ def test_the_sign_belongs_to_the_number_unless_a_power_follows() -> None:
 
 BAD = [
     (CLASSIC, "INT#40000", "INT#40000 is outside the range of INT: -32768 to 32767"),
+    (CLASSIC, "INT#16#1_0000", "INT#16#1_0000 is outside the range of INT: -32768 to 32767"),
+    (CLASSIC, "INT#-16#8001", "INT#-16#8001 is outside the range of INT: -32768 to 32767"),
     (CLASSIC, "BYTE#-1", "BYTE#-1 is outside the range of BYTE: 0 to 255"),
     (CLASSIC, "2147483648", "2147483648 is outside the range of an integer: -2147483648 to 2147483647"),
     (CLASSIC, "9" * 50, f"{'9' * 20}... has 50 digits; 20 are the most an integer can have"),

@@ -37,7 +37,8 @@ FUNCTION_BLOCK FB1
 CONST K := 3; END_CONST
 VAR_INPUT i : INT; d : DINT; r : REAL; w : WORD; b : BOOL; t : TIME; c : CHAR; END_VAR
 VAR_OUTPUT speed : REAL; END_VAR
-VAR a : ARRAY[1 .. 10] OF INT; unit, other : FB2; s : STRING[5]; END_VAR
+VAR a : ARRAY[1 .. 10] OF INT; unit, other : FB2;
+p : STRUCT x : INT; y : REAL; END_STRUCT; q : STRUCT x : INT; y : INT; END_STRUCT; s : STRING[5]; END_VAR
 BEGIN
 @
 END_FUNCTION_BLOCK
@@ -115,6 +116,7 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
             "30: CASE label 3 .. 5 overlaps 5 .. 9 above; remove one",
         ),
         ("CASE i OF 5 .. 1: i := 2; END_CASE;", "11: CASE label 5 .. 1 runs backwards"),
+        ("p := q;", "6: STRUCT is no STRUCT: they differ in y : INT and y : REAL"),
         ("unit := other;", "1: an instance of FB2 cannot be assigned; assign its members one by one"),
         ("FB7.DB7(i);", "9: name the parameter of FB7, as in `x := ...`"),
         ("CASE i OF i: i := 2; END_CASE;", "11: a CASE label must be a constant"),
@@ -282,7 +284,7 @@ def test_message_shows_the_line() -> None:
         source = SourceText("profile.scl", CLASSIC_TEXT.replace("@", "  speed := speed + d;"))
         lower(parse(source, CLASSIC), CLASSIC)
     assert str(error.value) == (
-        "profile.scl:30:18: no operator + for REAL and DINT; convert with DINT_TO_REAL\n"
+        "profile.scl:31:18: no operator + for REAL and DINT; convert with DINT_TO_REAL\n"
         "    speed := speed + d;\n"
         "                   ^"
     )
