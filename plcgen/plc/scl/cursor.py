@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -71,6 +72,18 @@ class Cursor:
         text = line.strip()
         self.previous = Token(TokenKind.STRING, text, Span(start, start + len(text)))
         return self.previous
+
+    def accept_text(self, pattern: re.Pattern[str]) -> re.Match[str] | None:
+        """Free text behind the last token, on its line, if it begins so."""
+        start = self.previous.span.end
+        end = self._lexer.line_end(start)
+        start = end - len(self.source.text[start:end].lstrip())
+        match = pattern.match(self.source.text, start, end)
+        if match is not None:
+            self._ahead.clear()
+            self._offset = match.end()
+            self.previous = Token(TokenKind.STRING, match.group(), Span(*match.span()))
+        return match
 
     # ------------------------------------------------------------------------------------------------ expectations
 

@@ -14,7 +14,8 @@ from plcgen.plc.scl.dialects import STRUCTURE_WORDS
 from plcgen.plc.scl.syntax import Header
 
 ABSOLUTE_NAMES = ("FB", "FC", "OB", "DB", "UDT")
-_QUOTED = re.compile(rf"({STRING})\s*(?://.*|\(\*.*\*\)\s*|;\s*)?")
+_QUOTED = re.compile(rf"({STRING})(?=$|\s|[;{{]|//|\(\*)\s*;?")
+_QUOTED_LINE = re.compile(rf"({STRING})\s*(?://.*|\(\*.*\*\)\s*|;\s*)?$")
 _COMMENT = re.compile(r"\s*(?://|\(\*|;).*")
 
 
@@ -39,12 +40,12 @@ def header(tokens: Cursor) -> Header:
 
 
 def _title(tokens: Cursor, result: Header) -> Header:
-    """Free text: without quotes everything up to the end of the line belongs to it."""
+    """Free text: without quotes, or where a title needs none, everything up to the end of the line belongs to it."""
+    quotes = tokens.dialect.header_quotes
     tokens.advance()
-    tokens.expect("=", "write TITLE = 'text'" if tokens.dialect.header_quotes else "write TITLE = text")
-    line = tokens.rest_of_line().text
-    quoted = _QUOTED.fullmatch(line)
-    return replace(result, title=quoted.group(1)[1:-1] if quoted else line)
+    tokens.expect("=", "write TITLE = 'text'" if quotes else "write TITLE = text")
+    quoted = tokens.accept_text(_QUOTED if quotes else _QUOTED_LINE)
+    return replace(result, title=quoted.group(1)[1:-1] if quoted else tokens.rest_of_line().text)
 
 
 def _word(field: str) -> Callable[[Cursor, Header], Header]:
@@ -58,11 +59,10 @@ def _word(field: str) -> Callable[[Cursor, Header], Header]:
 def _value(tokens: Cursor) -> str:
     keyword = tokens.advance()
     tokens.expect(":", f"write {keyword.word} : value")
-    line = tokens.rest_of_line()
-    quoted = _QUOTED.fullmatch(line.text)
-    value = quoted.group(1)[1:-1] if quoted else _COMMENT.sub("", line.text)
+    quoted = tokens.accept_text(_QUOTED)
+    value = quoted.group(1)[1:-1] if quoted else _COMMENT.sub("", tokens.rest_of_line().text)
     if not value:
-        raise tokens.error(f"{keyword.word} has no value; write it behind the colon", line.span)
+        raise tokens.error(f"{keyword.word} has no value; write it behind the colon", tokens.previous.span)
     return value
 
 

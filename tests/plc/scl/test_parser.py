@@ -383,7 +383,11 @@ def test_tia_header_with_a_bare_title() -> None:
     assert (found.header.title, found.header.version, found.header.author) == ("don't (* care", "1.0", "me")
 
 
-def test_an_empty_title() -> None:
+def test_titles_in_and_out_of_quotes() -> None:
+    one_line = block("FUNCTION_BLOCK FB1 TITLE = 'a b' VERSION : '1.0' VAR x : INT; END_VAR BEGIN END_FUNCTION_BLOCK")
+    assert (one_line.header.title, one_line.header.version, len(one_line.sections)) == ("a b", "1.0", 1)
+    bare = block("FUNCTION_BLOCK \"F\"\nTITLE = 'a' b\nBEGIN\nEND_FUNCTION_BLOCK", TIA)
+    assert bare.header.title == "'a' b"
     assert block("FUNCTION_BLOCK FB1\nTITLE =\nVERSION : '0.1'\nEND_FUNCTION_BLOCK").header.title == ""
 
 
