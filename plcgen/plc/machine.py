@@ -103,7 +103,8 @@ class Machine:
         try:
             return link.run(*link.instance, *self._frame(link.function, frame), *arguments)
         except RecursionError:
-            raise Fault(f"{name}: blocks call each other without end (scan {self.scan})") from None
+            message = f"{name}: blocks call each other too deep (scan {self.scan}); is there a call without end?"
+            raise Fault(message, link.function.source.location(link.function.span)) from None
         except Fault as fault:
             raise Fault(f"{fault.message} (scan {self.scan})", fault.location) from None
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from plcgen.errors import Location, SourceError
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+UTF_16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 
 
 class Span(NamedTuple):
@@ -61,7 +62,9 @@ def read_source(path: Path) -> SourceText:
 
 
 def decode_source(name: str, raw: bytes) -> SourceText:
-    """See `read_source`."""
+    """See `read_source`. Raises SourceError for UTF-16, which no engineering tool imports."""
+    if raw.startswith(UTF_16_MARKS):
+        raise SourceError(f"{name}: is UTF-16; save it as UTF-8 with BOM (TIA) or as ANSI (STEP 7 V5)")
     try:
         return SourceText(name, raw.decode("utf-8-sig"), raw, "utf-8")
     except UnicodeDecodeError:

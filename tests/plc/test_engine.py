@@ -148,10 +148,13 @@ def test_endless_loop_stops_with_its_place() -> None:
     )
 
 
-def test_blocks_that_call_each_other_without_end_stop() -> None:
+def test_blocks_that_call_each_other_too_deep_stop_with_their_place() -> None:
     function = Function("FC1", SOURCE, (Call(HERE, "FC1"), Return(HERE)), HERE)
-    with pytest.raises(Fault, match=r"^FC1: blocks call each other without end \(scan 0\)$"):
+    with pytest.raises(Fault) as fault:
         Machine(verify(Program({"FC1": function}))).call("FC1")
+    assert str(fault.value).startswith(
+        "engine.scl:1:1: FC1: blocks call each other too deep (scan 0); is there a call without end?\n    x := 1;"
+    )
 
 
 def test_python_text_can_be_read() -> None:

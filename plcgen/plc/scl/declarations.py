@@ -56,6 +56,8 @@ def interface(tokens: Cursor) -> Interface:
             sections.append(part)
         else:
             constants.extend(part)
+        if tokens.at(";") and tokens.peek(1).word in ("CONST", "LABEL", "BEGIN", *SECTION_WORDS):
+            raise tokens.error(f"no ; belongs behind {tokens.previous}; remove it")
     return Interface(tuple(constants), tuple(sections))
 
 

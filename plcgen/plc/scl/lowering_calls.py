@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from plcgen.plc.core import Cell, Operand, Place, Register
 from plcgen.plc.scl import syntax
-from plcgen.plc.scl.functions import FUNCTIONS
+from plcgen.plc.scl.functions import FUNCTIONS, is_absent
 from plcgen.plc.scl.lowering_declarations import Interface, Parameter
 from plcgen.plc.scl.lowering_expressions import Expressions, calls_block
+from plcgen.plc.scl.lowering_places import FLAG_HINTS, flag_refusal
 from plcgen.plc.scl.lowering_values import Value, expect
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.suggest import did_you_mean
@@ -62,9 +63,13 @@ class Calls(Expressions):
         data = None if local else self.catalogue.data_block(callee.name)
         owner = self.catalogue.instance_interface(data.type) if data else None
         if data is None or owner is None:
-            hint = did_you_mean(callee.name, [*FUNCTIONS, *self.catalogue.names()])
-            raise self.source.error(f"unknown block or function {callee.name}{hint}", callee.span)
+            raise self.source.error(self._unknown_callee(callee.name), callee.span)
         return owner, Cell(data.name, 0, data.type)
+
+    def _unknown_callee(self, name: str) -> str:
+        if is_absent(name):
+            return f"{name} is not supported yet; a block {name} in your source can stand in for it"
+        return f"unknown block or function {name}{did_you_mean(name, [*FUNCTIONS, *self.catalogue.names()])}"
 
     # ------------------------------------------------------------------------------------------------- FB instances
 
@@ -141,6 +146,8 @@ class Calls(Expressions):
         if argument.name is None:
             raise self.source.error(f"name the parameter of {interface.name}, as in `x := ...`", argument.span)
         parameter = interface.parameter(argument.name)
+        if parameter is None and argument.name.upper() in FLAG_HINTS:
+            raise self.source.error(flag_refusal(argument.name), argument.span)
         if parameter is None:
             hint = did_you_mean(argument.name, [parameter.name for parameter in interface.parameters])
             raise self.source.error(f"{interface.name} has no parameter {argument.name}{hint}", argument.span)

@@ -10,6 +10,7 @@ from plcgen.plc.core import DataBlock
 from plcgen.plc.layout import write
 from plcgen.plc.scl import syntax
 from plcgen.plc.scl.dialects import PARAMETER_TYPES, UNSUPPORTED_TYPES
+from plcgen.plc.scl.functions import is_absent
 from plcgen.plc.scl.lowering_types import Declarations
 from plcgen.plc.scl.syntax import BlockKind, SectionKind
 from plcgen.plc.source import SourceText
@@ -103,6 +104,11 @@ class Catalogue:
         block = self.find(spec.name, BlockKind.UDT, BlockKind.FB)
         if spec.name.upper() in PARAMETER_TYPES | UNSUPPORTED_TYPES:
             raise source.error(f"type {spec.name} is not supported", spec.span)
+        if block is None and is_absent(spec.name):
+            message = (
+                f"{spec.name} is not supported yet; a FUNCTION_BLOCK {spec.name} in your source can stand in for it"
+            )
+            raise source.error(message, spec.span)
         if block is None:
             raise source.error(f"unknown type {spec.name}{did_you_mean(spec.name, self.names())}", spec.span)
         if block.name in self._pending:

@@ -104,7 +104,10 @@ class Expressions(Places):
         return self._combine(row.name, [argument], node.callee.span)
 
     def _standard(self, name: str, function: StandardFunction, node: syntax.Call) -> Value:
-        values = self.arguments(node, function.names(len(node.arguments)))
+        names = function.names(len(node.arguments))
+        if name == "MUX" and any((argument.name or "").upper() == "INELSE" for argument in node.arguments):
+            names = (*names[:-1], "INELSE")
+        values = self.arguments(node, names)
         span = node.callee.span
         if name == "MUX":
             return self._choose(values[0], values[1:], span)
@@ -113,7 +116,7 @@ class Expressions(Places):
         return self._combine(function.operator, values, span)
 
     def _choose(self, selector: Value, choices: Sequence[Value], span: Span) -> Value:
-        """MUX: choice K, the last one when K is beyond."""
+        """MUX: choice K, the last one (INELSE, if there is one) when K is beyond."""
         chosen = choices[-1]
         for number, choice in reversed(list(enumerate(choices[:-1]))):
             hit = self._combine("=", [selector, Untyped(number)], span)

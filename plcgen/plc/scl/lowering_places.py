@@ -38,6 +38,25 @@ from plcgen.plc.types import (
     Type,
 )
 
+FLAG_HINTS = {
+    "EN": "put the call into IF ... END_IF",
+    "ENO": "give the block an output for its errors",
+    "OK": "test the operands before, or the range of the result",
+}
+
+_NOT_A_VALUE = {
+    BlockKind.FC: "call it as {name}( )",
+    BlockKind.FB: "name an instance of it",
+    BlockKind.UDT: "declare a variable of it",
+    BlockKind.OB: "only the operating system calls it",
+}
+
+
+def flag_refusal(name: str) -> str:
+    """What to say about OK, ENO and the like."""
+    word = name.upper()
+    return f"{word} is not supported" + (f"; {FLAG_HINTS[word]}" if word in FLAG_HINTS else "")
+
 
 @dataclass
 class Scope:
@@ -98,9 +117,18 @@ class Places(ABC):
             shared = self._shared(node)
             if shared is not None:
                 return shared
+        raise self.source.error(self._unknown(node), node.span)
+
+    def _unknown(self, node: syntax.Variable) -> str:
         if node.name.upper() in FLAG_WORDS:
-            raise self.source.error(f"{node.name.upper()} is not supported", node.span)
-        raise self.source.error(f"unknown name {node.name}{did_you_mean(node.name, self._known(node))}", node.span)
+            return flag_refusal(node.name)
+        block = self.catalogue.find(node.name, *_NOT_A_VALUE)
+        if block is not None and node.scope is not syntax.Scope.LOCAL:
+            return f"{node.name} is a {block.kind.value}; {_NOT_A_VALUE[block.kind].format(name=node.name)}"
+        hint = did_you_mean(node.name, self._known(node))
+        if not hint and node.scope is syntax.Scope.GLOBAL:
+            return f'"{node.name}" is no block here, and PLC tags are not read; write the address, such as %M0.0'
+        return f"unknown name {node.name}{hint}"
 
     def local(self, node: syntax.Variable) -> Place | Literal | Untyped | None:
         """What a name stands for inside the block."""

@@ -61,7 +61,7 @@ def literal(source: SourceText, node: syntax.Literal) -> Value:
         return Literal(node.value, kind) if not isinstance(node.value, str) else untyped
     adapted = adapt(untyped, kind)
     if adapted is None:
-        raise source.error(_misfit(untyped, kind), node.span)
+        raise source.error(_misfit(untyped, kind, source.text[node.span.start : node.span.end]), node.span)
     return adapted
 
 
@@ -134,11 +134,11 @@ def expect(source: SourceText, builder: Builder, value: Value, kind: Type, span:
     """The value as this type. Raises SourceError with the way out."""
     operand = coerce(builder, value, kind)
     if operand is None:
-        raise source.error(_misfit(value, kind), span)
+        raise source.error(_misfit(value, kind, source.text[span.start : span.end]), span)
     return operand
 
 
-def _misfit(value: Value, kind: Type) -> str:
+def _misfit(value: Value, kind: Type, text: str) -> str:
     if isinstance(value, Untyped) and isinstance(value.value, str) and isinstance(kind, String):
         return f"{value.value!r} has {len(value.value)} characters, {kind} holds {kind.length}"
     if isinstance(value, Untyped):
@@ -146,6 +146,8 @@ def _misfit(value: Value, kind: Type) -> str:
         return f"constant {value.value!r} is no {kind}{limits}"
     if isinstance(value.type, Structure) and isinstance(kind, Structure):
         return f"{value.type} is no {kind}{_difference(value.type, kind)}"
+    if kind is BOOL and value.type in (*INTEGERS, *BIT_STRINGS):
+        return f"{value.type} is no BOOL; compare it, as in {text if text.isidentifier() else 'x'} <> 0"
     row = conversion(value.type, kind)
     return f"{value.type} is no {kind}" + (f"; convert with {row.name}" if row else "")
 
@@ -227,16 +229,16 @@ def _no_row(symbol: str, values: Sequence[Value]) -> str:
     name = "-" if symbol == "NEG" else symbol
     what = "function" if name.isalpha() and name not in WORD_OPERATORS else "operator"
     way_out = _way_out(symbol, values, types)
-    return f"no {what} {name} for {' and '.join(map(str, types))}" + (f"; convert with {way_out}" if way_out else "")
+    return f"no {what} {name} for {' and '.join(map(str, types))}" + (f"; {way_out}" if way_out else "")
 
 
 def _way_out(symbol: str, values: Sequence[Value], types: Sequence[Type]) -> str | None:
-    """A conversion of one operand that leads to a row, widest target first."""
+    """A conversion of one operand that leads to a row, widest target first; a number becomes BOOL by a comparison."""
     own = {kind for kind in types if isinstance(kind, Elementary)}
     targets = [kind for kind in reversed(ELEMENTARY.values()) if kind in own | {REAL, INT}]
     for target in targets:
         for position, kind in enumerate(types):
             row = conversion(kind, target)
             if row and select(symbol, [*values[:position], Literal(0, target), *values[position + 1 :]]):
-                return row.name
+                return f"compare the {kind}, as in x <> 0" if target is BOOL else f"convert with {row.name}"
     return None

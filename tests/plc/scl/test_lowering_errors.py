@@ -88,8 +88,9 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
         ("r := d ** 2;", "8: no operator ** for DINT and INT; convert with DINT_TO_REAL"),
         ("r := ABS(w);", "6: no function ABS for WORD; convert with WORD_TO_INT"),
         ("r := -w;", "6: no operator - for WORD; convert with WORD_TO_INT"),
-        ("IF i THEN i := 1; END_IF;", "4: INT is no BOOL; convert with INT_TO_BOOL"),
-        ("b := r < 1 AND i;", "12: no operator AND for BOOL and INT; convert with INT_TO_BOOL"),
+        ("IF i THEN i := 1; END_IF;", "4: INT is no BOOL; compare it, as in i <> 0"),
+        ("b := a[1];", "6: INT is no BOOL; compare it, as in x <> 0"),
+        ("b := r < 1 AND i;", "12: no operator AND for BOOL and INT; compare the INT, as in x <> 0"),
         # constants
         ("i := 70000;", "6: constant 70000 is no INT (-32768 .. 32767)"),
         ("i := 1.5;", "6: constant 1.5 is no INT (-32768 .. 32767)"),
@@ -99,7 +100,12 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
         # names
         ("sped := 1.0;", "1: unknown name sped; did you mean speed?"),
         ("DB9.x := 1;", "1: unknown name DB9"),
-        ("OK := TRUE;", "1: OK is not supported"),
+        ("OK := TRUE;", "1: OK is not supported; test the operands before, or the range of the result"),
+        ("b := ENO;", "6: ENO is not supported; give the block an output for its errors"),
+        ("FC6(EN := b, q := i);", "5: EN is not supported; put the call into IF ... END_IF"),
+        ("i := FC5;", "6: FC5 is a FUNCTION; call it as FC5( )"),
+        ("i := FB2;", "6: FB2 is a FUNCTION_BLOCK; name an instance of it"),
+        ('b := "Start";', '6: "Start" is no block here, and PLC tags are not read; write the address, such as %M0.0'),
         ("r.x := 1.0;", "2: REAL has no member x"),
         ("unit.yy := 1;", "5: FB2 has no member yy; did you mean y?"),
         # arrays
@@ -123,6 +129,17 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
         ("FOR r := 1 TO 2 DO i := 1; END_FOR;", "5: FOR needs an INT or DINT variable, not REAL"),
         # calls
         ("foo(x := 1);", "1: unknown block or function foo; did you mean FLOOR?"),
+        ("i := LEN('ab');", "6: LEN is not supported yet; a block LEN in your source can stand in for it"),
+        (
+            "i := BCD_TO_INT(w);",
+            "6: BCD_TO_INT is not supported yet; a block BCD_TO_INT in your source can stand in for it",
+        ),
+        (
+            "s := INT_TO_STRING(i);",
+            "6: INT_TO_STRING is not supported yet; a block INT_TO_STRING in your source can stand in for it",
+        ),
+        ("i := SFC64();", "6: SFC64 is not supported yet; a block SFC64 in your source can stand in for it"),
+        ("r := DINT_TO_RAEL(d);", "6: unknown block or function DINT_TO_RAEL"),
         ("FC7();", "1: unknown block or function FC7; did you mean FC6?"),
         ("i := FC5(x := 1, y := 2);", "6: FC5 needs parameter z"),
         ("i := FC5(x := 1, yy := 2, z := i);", "18: FC5 has no parameter yy; did you mean y?"),
@@ -168,6 +185,7 @@ def test_tia_statement(statement: str, message: str) -> None:
     ("declaration", "message"),
     [
         ("x : FB9;", "5: unknown type FB9; did you mean FB1?"),
+        ("x : TON;", "5: TON is not supported yet; a FUNCTION_BLOCK TON in your source can stand in for it"),
         ("x : ARRAY[1 .. 0] OF INT;", "16: array bounds 1 .. 0 run backwards"),
         ("x : INT := 1.5;", "12: constant 1.5 is no INT (-32768 .. 32767)"),
         ("x : ARRAY[1 .. 2] OF INT := 1, 2, 3;", "29: 3 initial values for 2 elements"),

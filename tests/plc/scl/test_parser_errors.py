@@ -26,6 +26,7 @@ STATEMENTS = [
     ),
     (CLASSIC, "FOR i := 1 TO 2 DO\nEND_IF;", "f.scl:4:1: END_FOR expected before END_IF; it closes FOR of line 3"),
     (CLASSIC, "CASE n OF 1: ;", "f.scl:4:1: END_CASE expected before END_FUNCTION_BLOCK; it closes CASE of line 3"),
+    (CLASSIC, "x := -16#8000;", "f.scl:3:7: -16#8000 is outside the range of an integer: 0 to 4294967295"),
     (CLASSIC, "REPEAT ; END_REPEAT;", "f.scl:3:10: UNTIL expected before END_REPEAT; it closes REPEAT of line 3"),
     (CLASSIC, "IF a THEN ; ELSE ; ELSE ; END_IF;", "f.scl:3:20: END_IF expected before ELSE; it closes IF of line 3"),
     (CLASSIC, "x := 1.0;\nEND_IF;", "f.scl:4:1: END_IF closes nothing here; remove it"),
@@ -77,6 +78,9 @@ def test_statements(dialect: Dialect, text: str, expected: str) -> None:
 
 DECLARATIONS = [
     (CLASSIC, "VAR x : REAL;\nBEGIN", "f.scl:3:1: END_VAR expected before BEGIN; it closes VAR of line 2"),
+    (CLASSIC, "VAR x : INT; END_VAR;\nVAR_TEMP y : INT; END_VAR",
+     "f.scl:2:21: no ; belongs behind END_VAR; remove it"),
+    (TIA, "VAR x : Int; END_VAR;\nBEGIN", "f.scl:2:21: no ; belongs behind END_VAR; remove it"),
     (CLASSIC, "VAR x : STRUCT a : INT; END_VAR",
      "f.scl:2:25: END_STRUCT expected before END_VAR; it closes STRUCT of line 2"),
     (CLASSIC, "VAR x REAL; END_VAR", "f.scl:2:7: : expected, found REAL"),
@@ -294,8 +298,18 @@ def test_a_mutated_source_is_parsed_or_refused(case: tuple[str, Dialect]) -> Non
     parse_or_refuse(*case)
 
 
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be"])
+def test_utf_16_is_named(encoding: str) -> None:
+    with pytest.raises(SourceError) as caught:
+        decode_source("f.scl", "\ufeffFUNCTION_BLOCK".encode(encoding))
+    assert str(caught.value) == "f.scl: is UTF-16; save it as UTF-8 with BOM (TIA) or as ANSI (STEP 7 V5)"
+
+
 @settings(max_examples=100, deadline=None)
 @given(st.binary(max_size=60))
 def test_any_bytes_are_parsed_or_refused(raw: bytes) -> None:
-    source = decode_source("f.scl", raw)
+    try:
+        source = decode_source("f.scl", raw)
+    except SourceError:
+        return
     parse_or_refuse(source.text, detect_dialect(source))
