@@ -157,6 +157,10 @@ class Catalogue:
         block = self.find(kind.name, BlockKind.FB) if isinstance(kind, Structure) and kind.name else None
         return self.interface(block) if block else None
 
+    def owner(self, kind: Type) -> Interface | None:
+        """The FB of an instance or of an ARRAY of instances."""
+        return self.instance_interface(kind.element if isinstance(kind, Array) else kind)
+
     # ------------------------------------------------------------------------------------------------- data blocks
 
     def data_block(self, name: str) -> DataBlock | None:

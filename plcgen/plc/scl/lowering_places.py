@@ -316,7 +316,7 @@ class _ScopeBuilder:
         return self._fresh(declaration.name, kind, in_memory, parameter)
 
     def _refuse_instance(self, declaration: syntax.Declaration, kind: Type) -> None:
-        owner = self.declarations.catalogue.instance_interface(kind.element if isinstance(kind, Array) else kind)
+        owner = self.declarations.catalogue.owner(kind)
         if owner is not None:
             way_out = "which must outlast a call; declare it in VAR of an FB"
             message = f"{declaration.name} is an instance of {owner.name}, {way_out}"

@@ -81,7 +81,7 @@ class Statements(Calls):
         self.builder.move(target, operand)
 
     def _refuse_instance(self, target: Place, node: syntax.Assignment) -> None:
-        owner = self.catalogue.instance_interface(target.type)
+        owner = self.catalogue.owner(target.type)
         if owner is not None:
             message = f"an instance of {owner.name} cannot be assigned; assign its members one by one"
             raise self.source.error(message, node.target.span)

@@ -147,7 +147,7 @@ def _misfit(value: Value, kind: Type, text: str) -> str:
     if isinstance(value.type, Structure) and isinstance(kind, Structure):
         return f"{value.type} is no {kind}{_difference(value.type, kind)}"
     if kind is BOOL and value.type in (*INTEGERS, *BIT_STRINGS):
-        return f"{value.type} is no BOOL; compare it, as in {text if text.isidentifier() else 'x'} <> 0"
+        return f"{value.type} is no BOOL; compare it, as in {text if text.lstrip('#').isidentifier() else 'x'} <> 0"
     row = conversion(value.type, kind)
     return f"{value.type} is no {kind}" + (f"; convert with {row.name}" if row else "")
 

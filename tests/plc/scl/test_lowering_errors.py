@@ -37,7 +37,7 @@ FUNCTION_BLOCK FB1
 CONST K := 3; END_CONST
 VAR_INPUT i : INT; d : DINT; r : REAL; w : WORD; b : BOOL; t : TIME; c : CHAR; END_VAR
 VAR_OUTPUT speed : REAL; END_VAR
-VAR a : ARRAY[1 .. 10] OF INT; unit, other : FB2;
+VAR a : ARRAY[1 .. 10] OF INT; unit, other : FB2; units : ARRAY[0 .. 1] OF FB2;
 p : STRUCT x : INT; y : REAL; END_STRUCT; q : STRUCT x : INT; y : INT; END_STRUCT; s : STRING[5]; END_VAR
 BEGIN
 @
@@ -123,6 +123,7 @@ def error_of(text: str, dialect: object = CLASSIC) -> str:
         ),
         ("CASE i OF 5 .. 1: i := 2; END_CASE;", "11: CASE label 5 .. 1 runs backwards"),
         ("p := q;", "6: STRUCT is no STRUCT: they differ in y : INT and y : REAL"),
+        ("units := units;", "1: an instance of FB2 cannot be assigned; assign its members one by one"),
         ("unit := other;", "1: an instance of FB2 cannot be assigned; assign its members one by one"),
         ("FB7.DB7(i);", "9: name the parameter of FB7, as in `x := ...`"),
         ("CASE i OF i: i := 2; END_CASE;", "11: a CASE label must be a constant"),
@@ -170,6 +171,8 @@ def test_classic_statement(statement: str, message: str) -> None:
         ("#ramp(out := #acceleration);", "7: out is an output of Ramp; write out => ..."),
         ("#ramp(step => #acceleration);", "7: step is no output of Ramp; write step := ..."),
         ("#acceleration := LOG(#acceleration);", "18: no LOG in TIA; write LN(x) * 0.4342945"),
+        ("IF #count THEN ; END_IF;", "4: DINT is no BOOL; compare it, as in #count <> 0"),
+        ('#w := "Start";', '7: "Start" is no block here, and PLC tags are not read; write the address, such as %M0.0'),
         ("#acceleration := 5 DIV 2;", "20: no DIV in TIA; write /"),
         ("#LIMIT_HIGH := 1.0;", "1: LIMIT_HIGH is a constant; it cannot be assigned"),
         ("#w.%X16 := TRUE;", "3: slice %X16 outside 0 .. 15"),
