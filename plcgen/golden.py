@@ -6,6 +6,7 @@ A case is a folder with `job.toml`, `<target>/` with the sources, `reference.csv
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import unified_diff
@@ -79,11 +80,20 @@ def _in_processes(cases: list[Path], update: bool, workers: int) -> Iterator[Cas
     from concurrent.futures.process import BrokenProcessPool
 
     context = multiprocessing.get_context("spawn")
+    threading.excepthook = _unless_interrupted
     with ProcessPoolExecutor(workers, context, _die_quietly) as pool:
         try:
             yield from pool.map(check_case, cases, [update] * len(cases))
         except BrokenProcessPool:
             raise PlcgenError("a process that checked a case has died; is there enough memory?") from None
+
+
+def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
+    """After an interrupt the pool's thread stumbles over results that were called off; that is nobody's concern."""
+    from concurrent.futures import InvalidStateError
+
+    if event.exc_type is not InvalidStateError:
+        threading.__excepthook__(event)
 
 
 def _die_quietly() -> None:

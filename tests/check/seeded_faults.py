@@ -45,7 +45,7 @@ overspeed_factor = 1.08
 tracking_factor = 1.1
 tracking_margin = 0.2
 brake_deceleration = 1.1
-reaction_time = 0.4
+reaction_time = 0.1
 end_velocity = 0.55
 """
 
