@@ -66,7 +66,7 @@ def hoist_constants(job: Job, trip: Trip) -> tuple[ConstantGroup, ...]:
                     "POSITION_WINDOW", position_window(job), unit, "at the stop: two scans at creep speed and 1 mm"
                 ),
                 Constant("JUMP_SCANS", JUMP_SCANS, "1", "scans at envelope speed that are no jump"),
-                Constant("ENCODER_STEP", encoder_step(job), unit, "1 mm, a step of the encoder on top"),
+                Constant("ENCODER_STEP", encoder_step(job), unit, "a step of the encoder, on top of these"),
                 Constant(
                     "MAX_CYCLE_TIME",
                     trip.shortest_jerk_time / PHASE_SAMPLES,
