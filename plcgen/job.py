@@ -11,8 +11,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from plcgen.errors import JobError
-from plcgen.jobfile import METHODS, UNITS_PER_METRE, Blocks, Context, Envelope, HoistFile, HoistLimits, json_schema
+from plcgen.jobfile import METHODS, Blocks, Envelope, HoistFile, HoistLimits, json_schema
 from plcgen.jobproblems import Problem, problems_of
+from plcgen.jobrules import UNITS_PER_METRE, Context
 from plcgen.targets import TARGETS, Target
 from plcgen.tomlfile import KeyPath, TomlFile, parse_toml, read_toml
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ValidationError
 
 from plcgen.errors import Location
-from plcgen.jobfile import UNITS_PER_METRE, Quantity, kind_of
+from plcgen.jobrules import UNITS_PER_METRE, Quantity, kind_of
 from plcgen.names import nearest
 from plcgen.tomlfile import KeyPath, TomlFile, spelled_path
 
