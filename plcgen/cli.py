@@ -18,7 +18,7 @@ from plcgen.errors import Fault, PlcgenError
 if TYPE_CHECKING:
     from plcgen.check.verdict import Check, Verdict
     from plcgen.job import Job
-    from plcgen.pipeline import Plan
+    from plcgen.plan import Plan
     from plcgen.profile.constants import ConstantGroup
 
 FAILED, BAD_INPUT = 1, 2
@@ -169,15 +169,13 @@ def derive(job: Path, as_json: bool) -> None:
     if as_json:
         _print_json(_derivation_json(read, derivation))
         return
-    terminal.show(_legs_table(read, derivation.legs))
+    terminal.show(_legs_table(read, derivation.stretches))
     for group in derivation.tables:
         terminal.show(_constants_table(group))
 
 
 def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
-    legs = [
-        {key: getattr(leg, key) for key in ("name", "duration", "travel", "end_velocity")} for leg in derivation.legs
-    ]
+    legs = [vars(stretch) for stretch in derivation.stretches]
     tables = [
         {"title": group.title, "constants": [vars(constant) for constant in group.constants]}
         for group in derivation.tables

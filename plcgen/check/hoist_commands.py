@@ -158,12 +158,15 @@ def _clamp(bench: Bench) -> Iterator[str]:
     _run_to(bench, rig, DECELERATE)
     rig.set(stop=True)
     place, end = rig.plant.travel, bench.model.limits.travel
-    while not at_rest(rig):
+    for _ in range(bench.longest_stop):
+        if at_rest(rig):
+            return
         place = min(end, place + 1.9 * rig.get("envelopeVelocity") * bench.model.sample_period)
         rig.force(actualTravel=place)
         rig.scan()
         envelope, setpoint = rig.get("envelopeVelocity"), rig.get("velocitySetpoint")
         yield differs(rig, "travel runs ahead", limitedSetpoint=min(setpoint, envelope), error=0)
+    yield "travel runs ahead: the hoist never comes to rest"
 
 
 def _started(bench: Bench, distance: float | None = None) -> Rig:

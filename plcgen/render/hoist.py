@@ -10,18 +10,10 @@ from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
 from plcgen.profile.hoist import Trip
 from plcgen.profile.hoist_constants import hoist_constants
+from plcgen.render.files import OutputFile
 
 # STEP 7 takes two numbers of 0..15; it is the version of the blocks, not of plcgen.
 BLOCK_VERSION = "0.1"
-
-
-@dataclass(frozen=True)
-class OutputFile:
-    """One file of a target: its template below the target's folder, its name, and what it is for."""
-
-    template: str
-    name: str
-    purpose: str
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from itertools import pairwise
 from plcgen import pipeline
 from plcgen.errors import PlcgenError
 from plcgen.job import parse_job
+from plcgen.plan import Plan
 from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
 from plcgen.plc.source import decode_source
 
@@ -78,15 +79,32 @@ class SeededFault:
     line: int
     was: str
 
-    def __str__(self) -> str:
-        return f"line {self.line}: {self.was.strip()!r} -> {self.replacement!r}"
+    def within(self, text: str) -> str:
+        """The row it stands under and its own row with the fault in brackets, in the spelling of STEP 7:
+        `IF reset AND NOT statResetBefore THEN | statError := [NO_ERROR -> TRIPPED];`.
+        """
+        start, end = text.rfind("\n", 0, self.start) + 1, text.find("\n", self.end)
+        marked = f"{text[start : self.start]}[{self.was.strip()} -> {self.replacement}]{text[self.end : end]}"
+        return f"{_plain(_owner(text, start))} | {_plain(marked)}"
 
     def apply(self, text: str) -> str:
         return text[: self.start] + self.replacement + text[self.end :]
 
 
+def _plain(row: str) -> str:
+    return " ".join(row.split("//")[0].replace("#", "").split())
+
+
+def _owner(text: str, start: int) -> str:
+    """The nearest row above that is indented less."""
+    row = text[start : text.find("\n", start)]
+    depth = len(row) - len(row.lstrip())
+    above = (line for line in reversed(text[:start].splitlines()) if _plain(line))
+    return next((line for line in above if len(line) - len(line.lstrip()) < depth), "")
+
+
 @cache
-def plan() -> pipeline.Plan:
+def plan() -> Plan:
     return pipeline.prepare(parse_job(JOB, "small.toml"))
 
 
@@ -147,11 +165,11 @@ def survives(target: str, fault: SeededFault) -> bool:
         return False
 
 
-def survivors(target: str, faults: list[SeededFault]) -> list[SeededFault]:
-    """Those that nothing caught; in a pool of processes."""
+def survivors(target: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
+    """Those that nothing caught, as they turn up; in a pool of processes."""
     with ProcessPoolExecutor() as pool:
         verdicts = pool.map(partial(survives, target), faults, chunksize=4)
-        return [fault for fault, alive in zip(faults, verdicts, strict=True) if alive]
+        yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
 
 
 if __name__ == "__main__":
@@ -161,5 +179,4 @@ if __name__ == "__main__":
     faults = all_faults(target)
     print(len(faults), "faults")
     for fault in survivors(target, faults):
-        row = source_text(target).splitlines()[fault.line - 1].strip()
-        print(f"{fault}   |   {row}", flush=True)
+        print(f"{fault.line}: {fault.within(source_text(target))}", flush=True)

@@ -12,6 +12,7 @@ import pytest
 
 from plcgen import pipeline
 from plcgen.job import read_job
+from plcgen.plan_hoist import load
 from plcgen.plc.machine import Machine
 from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
@@ -52,7 +53,7 @@ def single(value: float) -> float:
 @cache
 def machine(target: str) -> Machine:
     plan = pipeline.prepare(read_job(JOB))
-    return Machine(pipeline.load(target, pipeline.sources(plan, target)))
+    return Machine(load(target, pipeline.sources(plan, target)))
 
 
 def bisected(travel: Callable[[float], float], wanted: float, high: float) -> float:

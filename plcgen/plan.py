@@ -1,0 +1,79 @@
+"""What every method offers: a job with what was derived from it, and the way from there to verified sources."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from plcgen.check.verdict import TargetVerdict
+from plcgen.job import Job
+from plcgen.profile.constants import ConstantGroup
+from plcgen.render.environment import render
+from plcgen.render.files import OutputFile
+from plcgen.targets import TARGETS
+from plcgen.trajectory import Trajectory
+
+Progress = Callable[[str], None]
+Files = Mapping[str, bytes]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """One part of a motion: its name, duration in s, travel, and speed at its end, in the units of the job."""
+
+    name: str
+    duration: float
+    travel: float
+    end_velocity: float
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """What `plcgen derive` shows."""
+
+    stretches: tuple[Stretch, ...]
+    tables: tuple[ConstantGroup, ...]
+
+
+@dataclass(frozen=True)
+class Plan(ABC):
+    """A job that can be kept. Each method has its own."""
+
+    job: Job
+
+    @abstractmethod
+    def derivation(self) -> Derivation: ...
+
+    @abstractmethod
+    def outputs(self, target: str) -> tuple[OutputFile, ...]:
+        """Files of a target in the order of import."""
+
+    @abstractmethod
+    def context(self, target: str, verified: bool) -> dict[str, object]:
+        """What the templates of a target may name."""
+
+    @abstractmethod
+    def verify(
+        self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
+    ) -> TargetVerdict:
+        """Execute sources and hold them against the reference. Raises SourceError."""
+
+    @abstractmethod
+    def reference(self) -> Trajectory:
+        """The nominal motion in float64, sampled with the period of the job."""
+
+    @abstractmethod
+    def golden_trace(self, target: str, files: Files) -> Trajectory:
+        """What sources do on the nominal motion."""
+
+    def sources(self, target: str, verified: bool = True) -> dict[str, bytes]:
+        """Files of a target by name, encoded as its engineering tool reads them."""
+        row = TARGETS[target]
+        context = self.context(target, verified)
+        files = {}
+        for file in self.outputs(target):
+            text = render(f"{row.folder}/{self.job.method}/{file.template}", context)
+            encoding = "utf-8" if file.name.endswith(".md") else row.encoding
+            files[file.name] = text.replace("\n", row.newline).encode(encoding)
+        return files
