@@ -89,6 +89,11 @@ class Run:
         """A perfect encoder, an interrupt on time, one trip from stop to stop."""
         return self.encoder == PERFECT and not self.clock.jitter and len(self.trips) == 1
 
+    @property
+    def is_sound(self) -> bool:
+        """Every part ended as it should, and every trip began with some way to go."""
+        return self.complete and all(trip.to_go[0] > 0 for trip in self.segments(self.trips))
+
     def segments(self, spans: list[tuple[int, int, bool]]) -> list[Segment]:
         return [Segment(self.trace, *span) for span in spans]
 

@@ -87,7 +87,7 @@ def case_checks(bench: Bench) -> Iterator[Check]:
     """Figures that count answers which are not the documented ones, and the deviation of emergency stops."""
     rest = standing(bench, bench.model.limits.travel / 2)
     yield wrong("wrong_answers_at_rest", [_at_rest(rest, case) for case in input_cases(bench.model)])
-    yield wrong("wrong_jump_answers", [*_jumps(bench, rest), *_overwind(bench), *_window(bench)])
+    yield wrong("wrong_jump_answers", [*_jumps(bench), *_overwind(bench), *_window(bench)])
     yield wrong("wrong_commands", list(commands(bench)))
     yield wrong("wrong_restarts", list(restarts(bench)))
     yield from _trip_curve(bench)
@@ -127,13 +127,15 @@ def _at_rest(rest: tuple[Rig, Snapshot], case: Case) -> str:
     return next((answer for answer in answers if answer), "")
 
 
-def _jumps(bench: Bench, rest: tuple[Rig, Snapshot]) -> Iterator[str]:
-    rig, moment = rest
+def _jumps(bench: Bench) -> Iterator[str]:
+    """Near the lower stop, where REAL resolves the travel best."""
+    envelope = standing(bench, 0.0)[0].get("envelopeVelocity")
+    step = 2 * envelope * bench.model.sample_period + bench.model.millimetre
+    rig, moment = standing(bench, 2 * step)
     for sign in (1, -1):
-        for share, status in ((1 - PROBE, AT_REST), (1 + PROBE, ERROR_JUMP)):
+        for share, status in ((1 - PROBE / 50, AT_REST), (1 + PROBE / 50, ERROR_JUMP)):
             rig.restore(moment)
-            step = 2 * rig.get("envelopeVelocity") * rig.get("cycleTime") + bench.model.millimetre
-            rig.force(actualTravel=rig.plant.travel + sign * share * step)
+            rig.force(actualTravel=2 * step + sign * share * step)
             rig.scan()
             yield differs(rig, f"jump of {sign * share:g} steps", status=status)
 

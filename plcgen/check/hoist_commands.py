@@ -28,6 +28,7 @@ from plcgen.check.hoist_expectation import LAW_ERROR, Segment, peak_acceleration
 from plcgen.check.hoist_model import (
     ACCELERATE,
     CREEP_IN,
+    CREEP_OUT,
     DECELERATE,
     STANDSTILL,
     START_RAMP,
@@ -116,29 +117,21 @@ def _stop_in_the_stop_ramp(bench: Bench) -> Iterator[str]:
 
 
 def _late_stop_ramp(bench: Bench) -> Iterator[str]:
-    """Travel that leaps as far as is plausible: the stop ramp begins in arrears, by two cycles at most.
-
-    It leaps from creep in, and, where creep in is shorter than the leap, from the deceleration.
+    """Travel that leaps as far as is plausible, from a tenth of a scan before the stop ramp: the ramp begins in
+    arrears, by two cycles at most.
     """
-    creep_in = bench.model.limits.creep_in
-    yield from _leap(bench, bench.model.min_travel, CREEP_IN, 0.0)
-    yield from _leap(bench, 2 * bench.model.min_travel, DECELERATE, creep_in)
-
-
-def _leap(bench: Bench, distance: float, phase: int, gap: float) -> Iterator[str]:
-    """From a tenth of a scan before the place `gap` ahead of the stop ramp."""
     model = bench.model
-    creep, period = model.limits.creep_velocity, model.sample_period
-    gap += 0.1 * creep * period
-    trip = model.trip(distance)
+    distance = min(1.2 * model.min_travel, model.limits.travel)
+    trip, creep, period = model.trip(distance), model.limits.creep_velocity, model.sample_period
+    gap = 0.1 * creep * period
     brink = model.limits.travel - trip.stop_travel - gap
     rig = _started(bench, distance)
     rig.run(bench.longest_trip, lambda rig: rig.get("actualTravel") > brink - 2 * creep * period)
     rig.force(actualTravel=brink)
     rig.scan()
+    creeping = rig.get("phase") in (CREEP_OUT, CREEP_IN)
+    yield "" if creeping else f"before the stop ramp: phase = {rig.get('phase'):g}, not at creep speed"
     leap = 1.98 * rig.get("envelopeVelocity") * period
-    if rig.get("phase") != phase or leap <= gap:
-        return
     rig.force(actualTravel=brink + leap)
     rig.scan()
     yield differs(rig, "leap into the stop ramp", phase=STOP_RAMP, error=0)

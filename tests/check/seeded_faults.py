@@ -21,8 +21,8 @@ from plcgen.plan import Plan
 from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
 from plcgen.plc.source import decode_source
 
-# Acceleration by a short transition, deceleration by a full one, a jerk that is not 1, and an
-# envelope in which each of its four curves counts somewhere: few lines are without effect.
+# A jerk that is not 1, a^2/m and a^2 m on either side of the change of speed, and an envelope in which each of its four
+# curves counts somewhere: few lines are without effect.
 JOB = """
 name = "Small"
 method = "hoist"
@@ -33,7 +33,7 @@ sample_period = 0.02
 [hoist]
 travel = 24.0
 max_velocity = 4.0
-acceleration = 2.5
+acceleration = 1.9
 deceleration = 0.7
 jerk = 1.25
 creep_velocity = 0.4
