@@ -1,0 +1,185 @@
+"""The instructions of the S7-200 SMART, as its manual lists them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from plcgen.plc.stl import smart_flow as flow
+from plcgen.plc.stl import smart_logic as bits
+from plcgen.plc.stl import smart_timing as timing
+from plcgen.plc.stl.smart_boxes import (
+    bitwise,
+    converted,
+    divide_wide,
+    extended,
+    function,
+    inverted,
+    moved,
+    multiply_wide,
+    rounded,
+    shifted,
+    stepped,
+    swap,
+    two_operands,
+)
+from plcgen.plc.stl.smart_loops import block_move, fill, put
+from plcgen.plc.stl.smart_operators import CEVNT, DISI, DTCH, ENI, PLS, ROUND, STOP, TRUNC, WDR
+from plcgen.plc.stl.smart_rung import FALSE, TRUE
+from plcgen.plc.stl.smart_slots import COUNTER, IN_BIT, OUT_BIT, TIMER, Row, block, box, logic, number, reads, writes
+from plcgen.plc.stl.syntax import BlockKind
+from plcgen.plc.types import BYTE, DINT, DWORD, INT, REAL, WORD
+
+_written = lambda _rung, operand: operand  # noqa: E731 - the instruction reads it itself
+LEVEL = number(0, 31, "level of the logic stack")
+LABEL = number(0, 255, "label")
+EVENT = number(0, 44, "interrupt event")
+CHANNEL = number(0, 2, "pulse output")
+ROUTINE = block(BlockKind.INTERRUPT)
+
+CONTACTS: Mapping[str, Row] = {
+    "LD": logic(bits.load, IN_BIT),
+    "LDN": logic(bits.negated(bits.load), IN_BIT),
+    "A": logic(bits.conjoin, IN_BIT),
+    "AN": logic(bits.negated(bits.conjoin), IN_BIT),
+    "O": logic(bits.disjoin, IN_BIT),
+    "ON": logic(bits.negated(bits.disjoin), IN_BIT),
+}
+IMMEDIATE_CONTACTS = {f"{word}I": row for word, row in CONTACTS.items()}
+"""LDI, LDNI ... read the input itself; here it is the same as its image."""
+
+STACK: Mapping[str, Row] = {
+    "EU": logic(bits.rising),
+    "ED": logic(bits.falling),
+    "NOT": logic(bits.invert),
+    "ALD": logic(bits.and_load),
+    "OLD": logic(bits.or_load),
+    "LPS": logic(bits.logic_push),
+    "LRD": logic(bits.logic_read),
+    "LPP": logic(bits.logic_pop),
+    "LDS": logic(bits.load_stack, LEVEL),
+    "AENO": logic(bits.and_eno),
+}
+
+COILS: Mapping[str, Row] = {
+    "=": logic(bits.coil, OUT_BIT),
+    "=I": logic(bits.coil_now, OUT_BIT),
+    "S": box(put(TRUE, bits.alone), _written, _written),
+    "R": box(put(FALSE, bits.current), _written, _written),
+    "SI": box(put(TRUE, bits.at_once), _written, _written),
+    "RI": box(put(FALSE, bits.at_once), _written, _written),
+}
+
+COMPARES: Mapping[str, Row] = {
+    f"{meet}{letter}{symbol}": logic(bits.compare(meeting, symbol), reads(kind), reads(kind))
+    for meet, meeting in (("LD", bits.load), ("A", bits.conjoin), ("O", bits.disjoin))
+    for letter, kind in (("B", BYTE), ("W", INT), ("D", DINT), ("R", REAL))
+    for symbol in ("=", "<>", "<", "<=", ">", ">=")
+}
+
+MOVES: Mapping[str, Row] = {
+    "MOVB": moved(BYTE),
+    "MOVW": moved(INT),
+    "MOVD": moved(DINT),
+    "MOVR": moved(REAL),
+    "BMB": box(block_move(BYTE), _written, _written, _written),
+    "BMW": box(block_move(INT), _written, _written, _written),
+    "BMD": box(block_move(DINT), _written, _written, _written),
+    "FILL": box(fill(INT), _written, _written, _written),
+    "SWAP": swap(),
+}
+
+ARITHMETIC: Mapping[str, Row] = {
+    **{f"{symbol}I": two_operands(symbol, INT) for symbol in "+-*/"},
+    **{f"{symbol}D": two_operands(symbol, DINT) for symbol in "+-*/"},
+    **{f"{symbol}R": two_operands(symbol, REAL) for symbol in "+-*/"},
+    "MUL": box(multiply_wide, reads(INT), writes(DINT)),
+    "DIV": box(divide_wide, reads(INT), writes(DINT)),
+    **{name: function(name) for name in ("SQRT", "SIN", "COS", "TAN", "LN", "EXP")},
+    "INCB": stepped("+", BYTE),
+    "INCW": stepped("+", INT),
+    "INCD": stepped("+", DINT),
+    "DECB": stepped("-", BYTE),
+    "DECW": stepped("-", INT),
+    "DECD": stepped("-", DINT),
+}
+
+CONVERSIONS: Mapping[str, Row] = {
+    "BTI": extended(BYTE, INT),
+    "ITB": converted(INT, BYTE),
+    "ITD": extended(INT, DINT),
+    "DTI": converted(DINT, INT),
+    "DTR": extended(DINT, REAL),
+    "ROUND": rounded(ROUND),
+    "TRUNC": rounded(TRUNC),
+}
+
+BITS_AND_SHIFTS: Mapping[str, Row] = {
+    **{
+        f"{word}{letter}": bitwise(symbol, kind)
+        for word, symbol in (("AND", "AND"), ("OR", "OR"), ("XOR", "XOR"))
+        for letter, kind in (("B", BYTE), ("W", WORD), ("D", DWORD))
+    },
+    **{f"INV{letter}": inverted(kind) for letter, kind in (("B", BYTE), ("W", WORD), ("D", DWORD))},
+    **{
+        f"{word}{letter}": shifted(symbol, kind)
+        for word, symbol in (("SR", "SHR"), ("SL", "SHL"), ("RR", "ROR"), ("RL", "ROL"))
+        for letter, kind in (("B", BYTE), ("W", WORD), ("D", DWORD))
+    },
+}
+
+COUNTING: Mapping[str, Row] = {
+    "TON": logic(timing.on_delay(retentive=False), TIMER, reads(INT)),
+    "TONR": logic(timing.on_delay(retentive=True), TIMER, reads(INT)),
+    "TOF": logic(timing.off_delay, TIMER, reads(INT)),
+    "CTU": logic(timing.count_up, COUNTER, reads(INT)),
+    "CTD": logic(timing.count_down, COUNTER, reads(INT)),
+    "CTUD": logic(timing.count_both, COUNTER, reads(INT)),
+}
+
+CONTROL: Mapping[str, Row] = {
+    "JMP": logic(flow.jump, LABEL),
+    "LBL": logic(flow.label, LABEL),
+    "FOR": logic(flow.begin_loop, writes(INT), reads(INT), reads(INT)),
+    "NEXT": logic(flow.end_loop),
+    "CALL": Row(flow.call, None, is_box=True),
+    "CRET": logic(flow.leave),
+    "CRETI": logic(flow.leave),
+    "END": logic(flow.leave),
+    "STOP": box(flow.served(STOP)),
+    "WDR": box(flow.served(WDR)),
+    "NOP": logic(flow.nothing, LABEL),
+}
+
+INTERRUPTS_AND_PULSES: Mapping[str, Row] = {
+    "ATCH": box(flow.attach, ROUTINE, EVENT),
+    "DTCH": box(flow.served(DTCH), EVENT),
+    "CEVNT": box(flow.served(CEVNT), EVENT),
+    "ENI": box(flow.served(ENI)),
+    "DISI": box(flow.served(DISI)),
+    "PLS": box(flow.served(PLS), CHANNEL),
+}
+
+MNEMONICS: Mapping[str, Row] = {
+    **CONTACTS,
+    **IMMEDIATE_CONTACTS,
+    **STACK,
+    **COILS,
+    **COMPARES,
+    **MOVES,
+    **ARITHMETIC,
+    **CONVERSIONS,
+    **BITS_AND_SHIFTS,
+    **COUNTING,
+    **CONTROL,
+    **INTERRUPTS_AND_PULSES,
+}
+
+# fmt: off
+UNSUPPORTED = frozenset([
+    "AD_T", "ATH", "ATT", "BCDI", "BIR", "BITIM", "BIW", "CFND", "CITIM", "CSCRE", "DECO", "DLED", "DTA", "DTS",
+    "ENCO", "FIFO", "FND<", "FND<>", "FND=", "FND>", "GET", "GPA", "HDEF", "HSC", "HTA", "IBCD", "ITA", "ITS",
+    "LIFO", "LSCR", "NETR", "NETW", "PID", "PUT", "RCV", "RSET", "RTA", "RTS", "SCAT", "SCPY", "SCRE", "SCRT", "SEG",
+    "SFND", "SHRB", "SLEN", "SPA", "SSCPY", "STD", "STI", "STR", "TODR", "TODRX", "TODW", "TODWX", "XMT",
+])
+# fmt: on
+"""Instructions that exist and are not executed here."""
