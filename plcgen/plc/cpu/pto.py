@@ -170,8 +170,9 @@ class Channel:
             self._begin(end, [(load[0], load[0], load[1])], multi=False)
         return True
 
-    def refresh(self) -> None:
+    def refresh(self, now: int) -> None:
         """Status and segment number in special memory, before any program text runs."""
+        self._now = now
         port, special = self.port, self._special
         special[port.status] = special[port.status] & 0x70 | self._flags | (0 if self._running else IDLE)
         special[port.segment] = self._running_number()
@@ -205,7 +206,7 @@ class Channel:
             self._start_table()
         else:
             self._load(control)
-        self.refresh()
+        self.refresh(now)
 
     def _stop(self, flag: int) -> None:
         """What is left of the running train is lost."""

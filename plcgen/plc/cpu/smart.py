@@ -18,6 +18,7 @@ from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, SM, STARTS, V, cell_at, default_type, pointed
+from plcgen.plc.stl.smart_symbols import SYSTEM_SYMBOLS
 from plcgen.plc.stl.syntax import BlockKind
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import BOOL, Elementary
@@ -202,7 +203,7 @@ class Smart:
         self._special[0] |= ALWAYS_ON
         self._special[4] = self._special[4] & ~INTERRUPTS_ENABLED | (INTERRUPTS_ENABLED if self._enabled else 0)
         for channel in self.channels.values():
-            channel.refresh()
+            channel.refresh(self.time_us)
 
     def _watch_directions(self) -> None:
         for channel in self.channels.values():
@@ -220,6 +221,7 @@ class Smart:
             self._notice()
             self._serve()
         self.time_us = max(self.time_us, until)
+        self._refresh()
 
     def _next_moment(self) -> int:
         """When something next happens, far off when nothing will."""
@@ -321,9 +323,8 @@ class Smart:
         text = self.program.symbols.get(path.strip('"').casefold(), path)
         address = read_address(text)
         if address is None:
-            raise PlcgenError(
-                f"no variable {path}{did_you_mean(path, self.program.symbols)}; write an address as VD100"
-            )
+            near = did_you_mean(path, [*self.program.symbols, *SYSTEM_SYMBOLS])
+            raise PlcgenError(f"no variable {path}{near or '; write an address such as VD100'}")
         try:
             cell = cell_at(address, kind or default_type(address))
         except ValueError as error:
