@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plcgen.errors import Fault
-
 SECOND = 1_000_000  # us
 SHORTEST_US = 500
 """A segment of a table shorter than this leaves the CPU no time to work out the next one: the output stops."""
@@ -194,19 +192,42 @@ class Channel:
 
     # ----------------------------------------------------------------------------------------------------- commands
 
-    def command(self, now: int) -> None:
-        """PLS. Raises Fault for what is not modelled."""
+    def command(self, now: int) -> str | None:
+        """PLS. Returns why it cannot be executed, or nothing."""
         self.advance(now)
         control = self._special[self.port.control]
+        refusal = self._refusal(control)
+        if refusal is not None:
+            return refusal
         if not control & ENABLE:
             self._stop(STOPPED)
-        elif not control & PULSES:
-            raise Fault(f"{self.output}: PWM is not modelled; set bit .6 of SMB{self.port.control} for a pulse train")
         elif control & TABLE:
             self._start_table()
         else:
             self._load(control)
         self.refresh(now)
+        return None
+
+    def _refusal(self, control: int) -> str | None:
+        port, start = self.port, self._table_start
+        if control & ENABLE and not control & PULSES:
+            return f"{self.output}: PWM is not modelled; set bit .6 of SMB{port.control} for a pulse train"
+        if control & ENABLE and control & TABLE and self._table_count is None:
+            return f"{self.output}: profile table at VB{start} reaches beyond V memory; mend SMW{port.table}"
+        return None
+
+    @property
+    def _table_start(self) -> int:
+        """Offset of the profile table from VB0."""
+        start: int = unpack_from(">H", self._special, self.port.table)[0]
+        return start
+
+    @property
+    def _table_count(self) -> int | None:
+        """Segments of the profile table; None when it does not lie in V memory."""
+        start, size = self._table_start, len(self._table)
+        count: int = self._table[start] if start < size else size
+        return count if start + 1 + count * ENTRY_BYTES <= size else None
 
     def _stop(self, flag: int) -> None:
         """What is left of the running train is lost."""
@@ -233,12 +254,8 @@ class Channel:
 
     def _entries(self) -> Iterator[tuple[int, int, int]]:
         """First frequency, last frequency and count of each segment in V memory."""
-        (start,) = unpack_from(">H", self._special, self.port.table)
-        size = len(self._table)
-        count = self._table[start] if start < size else 0
-        if start + 1 + count * ENTRY_BYTES > size:
-            raise Fault(f"{self.output}: profile table at VB{start} with {count} segments reaches beyond V memory")
-        for place in range(start + 1, start + 1 + count * ENTRY_BYTES, ENTRY_BYTES):
+        start = self._table_start + 1
+        for place in range(start, start + (self._table_count or 0) * ENTRY_BYTES, ENTRY_BYTES):
             first, last, pulses = unpack_from(">3I", self._table, place)
             yield _clamped(first, MOST_HZ), _clamped(last, MOST_HZ), _clamped(pulses, 2**31 - 1)
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from plcgen.errors import Fault, PlcgenError
+from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Cell, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
 from plcgen.plc.engine import Bytes
@@ -137,7 +137,7 @@ class Smart:
             "eni": lambda: self._enable(True),
             "disi": lambda: self._enable(False),
             "stop": self._stop,
-            "wdr": lambda: False,
+            "wdr": lambda: None,
             "clock": lambda: self.time_us // MILLISECOND,
         }
 
@@ -280,33 +280,31 @@ class Smart:
         self._special[1] = status
 
     # ------------------------------------------------------------------------------------------------- instructions
+    # Each returns why the CPU must stop, or nothing.
 
-    def _pls(self, number: int) -> bool:
-        self.channels[list(PORTS)[number]].command(self.time_us)
-        return True
+    def _pls(self, number: int) -> str | None:
+        return self.channels[list(PORTS)[number]].command(self.time_us)
 
-    def _attach(self, number: int, event: int) -> bool:
+    def _attach(self, number: int, event: int) -> str | None:
         self._attached[event] = f"{BlockKind.INTERRUPT.value}{number}"
         if event in TIMED:
             period = self._special[TIMED[event]] * MILLISECOND
             if not period:
-                raise Fault(f"ATCH of event {event} with 0 ms in SMB{TIMED[event]}; write 1 to 255 before it")
+                return f"ATCH of event {event} with 0 ms in SMB{TIMED[event]}; write 1 to 255 before it"
             self._ticks[event] = _Ticks(period, self.time_us, -1, 0)
             self._plan(self._ticks[event], 0)
-        return True
+        return None
 
-    def _detach(self, event: int) -> bool:
+    def _detach(self, event: int) -> None:
         self._attached.pop(event, None)
         self._ticks.pop(event, None)
-        return self._clear_events(event)
+        self._clear_events(event)
 
-    def _clear_events(self, event: int) -> bool:
+    def _clear_events(self, event: int) -> None:
         self._queue = [request for request in self._queue if request.event != event]
-        return True
 
-    def _enable(self, enabled: bool) -> bool:
+    def _enable(self, enabled: bool) -> None:
         self._enabled = enabled
-        return True
 
     # ----------------------------------------------------------------------------------------------------- variables
 

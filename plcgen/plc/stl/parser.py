@@ -36,6 +36,12 @@ class _Line(NamedTuple):
     span: Span
     word: str
 
+    @property
+    def word_span(self) -> Span:
+        """Of the first word, which may be shorter than in upper case."""
+        length = len(self.text.split(None, 1)[0]) if self.text else 0
+        return Span(self.span.start, self.span.start + length)
+
 
 def parse(source: SourceText) -> tuple[Block, ...]:
     """The blocks of a file. Raises SourceError at what is no STL; mnemonics are judged by the lowering."""
@@ -75,7 +81,7 @@ class _Parser:
             raise self.source.error(
                 f"a block expected, found {head.word}{did_you_mean(head.word, HEADS)}; blocks begin with "
                 "ORGANIZATION_BLOCK, SUBROUTINE_BLOCK or INTERRUPT_BLOCK",
-                _word_span(head),
+                head.word_span,
             )
         name, number = self._name(head)
         self._titles()
@@ -93,7 +99,7 @@ class _Parser:
     def _expect(self, word: str, why: str) -> _Line:
         if self.line.word != word:
             found = self.line.word or "end of file"
-            raise self.source.error(f"{word} expected, found {found}; {why}", _word_span(self.line))
+            raise self.source.error(f"{word} expected, found {found}; {why}", self.line.word_span)
         return self.take()
 
     def _name(self, head: _Line) -> tuple[str, int | None]:
@@ -157,7 +163,7 @@ class _Parser:
         return Network(number, tuple(statements), head.span, tuple(titles))
 
     def _statement(self, line: _Line) -> Statement:
-        rest = line.span.start + len(line.word)
+        rest = line.word_span.end
         operands = tuple(self._operands(rest, line.span.end)) if rest < line.span.end else ()
         return Statement(line.word, operands, line.span)
 
@@ -167,13 +173,13 @@ class _Parser:
             assert match is not None
             text = match[1].rstrip()
             span = Span(match.start(1), match.start(1) + len(text))
+            if match.end() < end and self.source.text[match.end()] != ",":
+                raise self.source.error("quote is not closed on this line; add one", Span(match.end(), end))
             if not text:
                 raise self.source.error("an operand is missing here; remove the comma or write one", span)
             yield read_operand(self.source, span)
             if match.end() == end:
                 return
-            if self.source.text[match.end()] != ",":
-                raise self.source.error("quote is not closed on this line; add one", Span(match.end(), end))
             start = match.end() + 1
 
 
@@ -185,11 +191,7 @@ def _lines(text: str) -> Iterator[_Line]:
     for match in _LINE.finditer(text):
         code = _CODE.match(text, match.start(), match.end())
         assert code is not None
-        stripped = code.group().strip("\ufeff \t\f\v\0")
+        stripped = code.group().strip().strip("\ufeff\0").strip()
         if stripped:
             start = match.start() + code.group().index(stripped)
             yield _Line(stripped, Span(start, start + len(stripped)), stripped.split(None, 1)[0].upper())
-
-
-def _word_span(line: _Line) -> Span:
-    return Span(line.span.start, line.span.start + len(line.word))

@@ -32,14 +32,17 @@ def jump(rung: Rung, number: int) -> None:
 
 def label(rung: Rung, number: int) -> None:
     """LBL n"""
+    if number in rung.labels:
+        raise rung.error(f"LBL {number} stands twice in {rung.block.shown}; give one another number")
+    rung.labels.add(number)
     rung.builder.place(label_name(number))
 
 
-def labels_of(block: syntax.Block) -> list[int]:
-    """Numbers of the LBL of a block, each as often as it stands there."""
+def labels_of(block: syntax.Block) -> set[int]:
+    """Numbers of the LBL of a block."""
     statements = (statement for network in block.networks for statement in network.statements)
     operands = (item.operands[0] for item in statements if item.mnemonic == "LBL" and item.operands)
-    return [int(item.value) for item in operands if isinstance(item, syntax.Constant)]
+    return {int(item.value) for item in operands if isinstance(item, syntax.Constant)}
 
 
 def leave(rung: Rung) -> None:

@@ -14,6 +14,8 @@ from plcgen.plc.types import BOOL, BYTE, BYTE_BITS, DINT, Elementary
 
 UNROLLED = 8
 """Up to so many times the core is written out."""
+MOST = 255
+"""The most that N can say."""
 ONE, NONE = Literal(1, DINT), Literal(0, DINT)
 
 
@@ -30,9 +32,9 @@ class Lane(NamedTuple):
     def room(self) -> int:
         """How often it fits into its area; a pointer was checked when it was followed."""
         if self.cell.index is not None or not self.stride:
-            return 255
+            return MOST
         size = LOCAL_BYTES if self.cell.area is FRAME else AREAS[self.cell.area]
-        return (size * BYTE_BITS - self.cell.bit) // self.stride
+        return min(MOST, (size * BYTE_BITS - self.cell.bit) // self.stride)
 
 
 def each(rung: Rung, count: syntax.Operand, lanes: Sequence[Lane], body: Callable[..., None]) -> None:

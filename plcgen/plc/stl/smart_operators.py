@@ -111,10 +111,10 @@ def pointed(size: int) -> Operator:
     return Operator("POINTED", (DWORD,), DINT, f"pointed({{0}}, {size})", False, "{r} < 0", _NO_TARGET)
 
 
-def service(name: str, *operands: Elementary, result: Elementary = BOOL) -> Operator:
-    """Something the CPU does besides computing; see `cpu.smart`."""
+def service(name: str, *operands: Elementary) -> Operator:
+    """Something the CPU does besides computing; see `cpu.smart`. It returns why the CPU must stop, or nothing."""
     arguments = ", ".join(f"{{{position}}}" for position in range(len(operands)))
-    return Operator(name.upper(), operands, result, f"service_{name}({arguments})")
+    return Operator(name.upper(), operands, BOOL, f"service_{name}({arguments})", False, "{r}", "stop({r}, {site})")
 
 
 PLS = service("pls", INT)
@@ -122,5 +122,5 @@ ATCH = service("atch", INT, INT)
 DTCH = service("dtch", INT)
 CEVNT = service("cevnt", INT)
 ENI, DISI, STOP, WDR = service("eni"), service("disi"), service("stop"), service("wdr")
-CLOCK = service("clock", result=DINT)
+CLOCK = Operator("CLOCK", (), DINT, "service_clock()")
 """Milliseconds since the CPU went to RUN."""

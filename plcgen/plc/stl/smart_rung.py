@@ -56,6 +56,7 @@ class Rung:
     failures: tuple[Cell, ...] = ()
     statement: syntax.Statement = field(init=False)
     loops: list[Loop] = field(default_factory=list)
+    labels: set[int] = field(default_factory=set)
     _guard: tuple[Operand, str] | None = None
 
     def error(self, message: str, operand: syntax.Operand | None = None) -> SourceError:

@@ -31,12 +31,30 @@ def logic(emit: Callable[..., None], *slots: Slot) -> Row:
     return Row(emit, slots)
 
 
+@dataclass(frozen=True)
+class Typed:
+    """An operand of one type; `take` says what becomes of it."""
+
+    kind: Elementary
+    take: Callable[[Rung, syntax.Operand, Elementary], object]
+
+    def __call__(self, rung: Rung, operand: syntax.Operand) -> object:
+        return self.take(rung, operand, self.kind)
+
+
 def reads(kind: Elementary) -> Slot:
-    return lambda rung, operand: rung.read(operand, kind)
+    """IN"""
+    return Typed(kind, Rung.read)
 
 
 def writes(kind: Elementary) -> Slot:
-    return lambda rung, operand: rung.write(operand, kind)
+    """OUT"""
+    return Typed(kind, Rung.write)
+
+
+def written(kind: Elementary) -> Slot:
+    """An operand that the instruction reads or writes itself."""
+    return Typed(kind, lambda _rung, operand, _kind: operand)
 
 
 IN_BIT, OUT_BIT = reads(BOOL), writes(BOOL)

@@ -25,11 +25,24 @@ from plcgen.plc.stl.smart_boxes import (
 from plcgen.plc.stl.smart_loops import block_move, fill, put
 from plcgen.plc.stl.smart_operators import CEVNT, DISI, DTCH, ENI, PLS, ROUND, STOP, TRUNC, WDR
 from plcgen.plc.stl.smart_rung import FALSE, TRUE
-from plcgen.plc.stl.smart_slots import COUNTER, IN_BIT, OUT_BIT, TIMER, Row, block, box, logic, number, reads, writes
+from plcgen.plc.stl.smart_slots import (
+    COUNTER,
+    IN_BIT,
+    OUT_BIT,
+    TIMER,
+    Row,
+    block,
+    box,
+    logic,
+    number,
+    reads,
+    writes,
+    written,
+)
 from plcgen.plc.stl.syntax import BlockKind
-from plcgen.plc.types import BYTE, DINT, DWORD, INT, REAL, WORD
+from plcgen.plc.types import BOOL, BYTE, DINT, DWORD, INT, REAL, WORD
 
-_written = lambda _rung, operand: operand  # noqa: E731 - the instruction reads it itself
+BITS_AND_COUNT = (written(BOOL), written(BYTE))
 LEVEL = number(0, 31, "level of the logic stack")
 LABEL = number(0, 255, "label")
 EVENT = number(0, 44, "interrupt event")
@@ -63,10 +76,10 @@ STACK: Mapping[str, Row] = {
 COILS: Mapping[str, Row] = {
     "=": logic(bits.coil, OUT_BIT),
     "=I": logic(bits.coil_now, OUT_BIT),
-    "S": box(put(TRUE, bits.alone), _written, _written),
-    "R": box(put(FALSE, bits.current), _written, _written),
-    "SI": box(put(TRUE, bits.at_once), _written, _written),
-    "RI": box(put(FALSE, bits.at_once), _written, _written),
+    "S": box(put(TRUE, bits.alone), *BITS_AND_COUNT),
+    "R": box(put(FALSE, bits.current), *BITS_AND_COUNT),
+    "SI": box(put(TRUE, bits.at_once), *BITS_AND_COUNT),
+    "RI": box(put(FALSE, bits.at_once), *BITS_AND_COUNT),
 }
 
 COMPARES: Mapping[str, Row] = {
@@ -81,10 +94,10 @@ MOVES: Mapping[str, Row] = {
     "MOVW": moved(INT),
     "MOVD": moved(DINT),
     "MOVR": moved(REAL),
-    "BMB": box(block_move(BYTE), _written, _written, _written),
-    "BMW": box(block_move(INT), _written, _written, _written),
-    "BMD": box(block_move(DINT), _written, _written, _written),
-    "FILL": box(fill(INT), _written, _written, _written),
+    "BMB": box(block_move(BYTE), written(BYTE), written(BYTE), written(BYTE)),
+    "BMW": box(block_move(INT), written(INT), written(INT), written(BYTE)),
+    "BMD": box(block_move(DINT), written(DINT), written(DINT), written(BYTE)),
+    "FILL": box(fill(INT), written(INT), written(INT), written(BYTE)),
     "SWAP": swap(),
 }
 
