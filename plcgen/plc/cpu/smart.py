@@ -95,6 +95,8 @@ class Smart:
     `lateness(n)` are the us that tick n (from 0) of a timed interrupt comes late. In `blocked` intervals [start, end)
     of us no interrupt can start, as while a communication interrupt runs. `directions` names the direction output of
     a pulse output, such as {"Q0.0": "Q0.4"}: pulses sent while it is 1 count backwards.
+
+    Instead of MAIN, `cycle` may name a block that a scan runs, with `arguments`; `results` are what it handed back.
     """
 
     def __init__(
@@ -105,8 +107,12 @@ class Smart:
         blocked: Sequence[tuple[int, int]] = (),
         temp_fill: int = 0,
         directions: Mapping[str, str] | None = None,
+        cycle: str = MAIN,
     ) -> None:
         self.program = program
+        self.arguments: Sequence[Any] = ()
+        self.results: Any = None
+        self._cycle = cycle
         self.scan_us = scan_us
         self.time_us = 0
         self.running = True
@@ -178,8 +184,8 @@ class Smart:
             | (0 if self._scans % 2 else CLOCK_SCAN)
         )
         self._processor.scan = self._scans
-        if MAIN in self.program.functions:
-            self._run(MAIN)
+        if self._cycle in self.program.functions:
+            self.results = self._run(self._cycle, self.arguments)
         self._scans += 1
         self._next_scan += self.scan_us
         self._serve()
@@ -189,15 +195,17 @@ class Smart:
         self.memory[PHYSICAL_OUTPUTS][:] = self.memory[Area.OUTPUTS]
         self._watch_directions()
 
-    def _run(self, name: str) -> None:
+    def _run(self, name: str, arguments: Sequence[Any] = ()) -> Any:
         if not self.running:
-            return
+            return None
         self._refresh()
         try:
-            self._processor.call(name)
+            return self._processor.call(name, arguments=arguments)
         except _StopMode:
             self.running = False
-        self._watch_directions()
+            return None
+        finally:
+            self._watch_directions()
 
     def _refresh(self) -> None:
         self._special[0] |= ALWAYS_ON

@@ -52,7 +52,11 @@ def known_symbol(subject: SmartSubject) -> Iterator[Hit]:
     for block, statement in subject.statements():
         own = [item.name for item in block.declarations]
         for operand in statement.operands:
-            if isinstance(operand, Name) and not _means_something(subject, own, operand.text):
+            if not isinstance(operand, Name) or _means_something(subject, own, operand.text):
+                continue
+            if statement.mnemonic in ("CALL", "ATCH") and operand is statement.operands[0]:
+                yield operand.span, f"no block {operand.text} in these files: {LEFT_OUT}; name its file too"
+            else:
                 near = subject.names.near(operand.text, own) or "; write its address"
                 yield operand.span, f"unknown symbol {operand.text}: {LEFT_OUT}{near}"
 
