@@ -7,6 +7,7 @@ wrote to outputs reaches them at the end of the scan (=I, SI and RI at once), an
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -33,6 +34,8 @@ COMMUNICATION, INPUT_OUTPUT, TIMERS = 0, 1, 2
 _COMMUNICATION_EVENTS = frozenset({8, 9, 23, 24, 25, 26})
 _TIMER_EVENTS = frozenset({10, 11, 21, 22})
 QUEUE_LENGTHS = {COMMUNICATION: 8, INPUT_OUTPUT: 16, TIMERS: 8}
+
+_NEVER = 1 << 62  # us
 
 ALWAYS_ON, FIRST_SCAN, CLOCK_60S, CLOCK_1S, CLOCK_SCAN = 1, 2, 16, 32, 64
 """Bits of SMB0."""
@@ -67,6 +70,17 @@ def group_of(event: int) -> int:
     if event in _COMMUNICATION_EVENTS:
         return COMMUNICATION
     return TIMERS if event in _TIMER_EVENTS else INPUT_OUTPUT
+
+
+def _merged(intervals: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """In order, those that touch as one."""
+    merged: list[tuple[int, int]] = []
+    for start, end in sorted(intervals):
+        if merged and start <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
+        else:
+            merged.append((start, end))
+    return merged
 
 
 class _Processor(Machine):
@@ -118,7 +132,7 @@ class Smart:
         self.running = True
         self.violations: list[Violation] = []
         self._lateness = lateness or (lambda _tick: 0)
-        self._blocked = sorted(blocked)
+        self._blocked = _merged(blocked)
         self._processor = _Processor(program, temp_fill, self._services())
         self.memory = self._processor.memory
         self._special = self.memory[SM]
@@ -237,14 +251,12 @@ class Smart:
         moments += [math.ceil(c.next_change) for c in self.channels.values() if c.busy]
         if self._queue and self._enabled:
             moments.append(self._free_from(self.time_us))
-        return min(moments, default=1 << 62)
+        return min(moments, default=_NEVER)
 
     def _free_from(self, time: int) -> int:
         """The first moment from a time on when an interrupt can start."""
-        for start, end in self._blocked:
-            if start <= time < end:
-                time = end
-        return time
+        place = bisect_right(self._blocked, (time, _NEVER)) - 1
+        return max(time, self._blocked[place][1]) if place >= 0 else time
 
     def _notice(self) -> None:
         """Requests of the hardware at this moment."""

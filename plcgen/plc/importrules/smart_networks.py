@@ -18,8 +18,8 @@ from plcgen.plc.types import BYTE, DINT, DWORD, INT, WORD
 
 LEFT_OUT = "Micro/WIN leaves the network out without an error"
 LOADS = frozenset(word for word in (*COMPARES, "LD", "LDN", "LDI", "LDNI") if word.startswith("LD"))
-ALONE = frozenset({"NEXT", "LBL"})
-ENDINGS = frozenset({"JMP", "FOR", "CRET", "CRETI", "END"})
+ALONE = frozenset({"NEXT", "LBL", "LSCR", "SCRE"})
+ENDINGS = frozenset({"JMP", "FOR", "CRET", "CRETI", "END", "CSCRE"})
 FORBIDDEN = {
     BlockKind.INTERRUPT: frozenset({"DISI", "ENI", "HDEF", "END", "CRET"}),
     BlockKind.SUBROUTINE: frozenset({"END", "CRETI"}),

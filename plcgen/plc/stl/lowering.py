@@ -88,6 +88,9 @@ def _finish(rung: Rung) -> None:
     if rung.loops:
         rung.statement = rung.loops[-1].statement
         raise rung.error("FOR without NEXT; write NEXT in a network of its own")
+    if rung.step is not None:
+        rung.statement = rung.step.statement
+        raise rung.error("LSCR without SCRE; write SCRE in a network of its own")
     end = max(rung.block.extent.start, rung.block.extent.end - 1)
     rung.builder.span = Span(end, rung.block.extent.end)
     rung.builder.leave()

@@ -42,6 +42,8 @@ def locals_of(block: Block) -> tuple[Local, ...]:
     found: list[Local] = []
     end = 0
     for declaration in block.declarations:
+        if _is_power_flow(declaration):
+            continue
         kind = _type(block, declaration)
         start = end if kind is BOOL else align(end, BYTE_BITS)
         end = start + kind.bits
@@ -52,6 +54,11 @@ def locals_of(block: Block) -> tuple[Local, ...]:
             raise block.source.error(f"{declaration.name} is declared twice; rename one", declaration.span)
         found.append(Local(declaration, Cell(FRAME, start, kind)))
     return tuple(found)
+
+
+def _is_power_flow(declaration: Declaration) -> bool:
+    """EN, which editors list among the inputs: it is the condition of the CALL, and takes no memory."""
+    return declaration.section is SectionKind.INPUT and declaration.name.upper() == "EN"
 
 
 def _type(block: Block, declaration: Declaration) -> Elementary:

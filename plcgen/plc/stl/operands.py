@@ -19,7 +19,9 @@ _INTEGER = re.compile(r"[+-]?[0-9]+")
 _REAL = re.compile(r"[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[+-]?[0-9]+[eE][+-]?[0-9]+")
 _BASED = re.compile(r"(16|2|8)#([0-9A-Fa-f_]+)")
 _TEXT = re.compile(r"'([^'\r\n]{1,4})'")
-_NAME = re.compile(r"(?:[^\W\d]|[\x80-\uffff])[\w\x80-\uffff]*")
+# A letter of a code page is one byte above 127 or two, the second of which may be any from @ to ~.
+_WIDE = r"[\x81-\xfe][@-~]|[\x80-\uffff]"
+_NAME = re.compile(rf"(?:[A-Za-z_]|{_WIDE})(?:[0-9A-Za-z_]|{_WIDE})*")
 _QUOTED = re.compile(r'"([^"]+)"')
 
 

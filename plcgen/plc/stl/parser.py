@@ -19,6 +19,10 @@ HEADS = {
 }
 SECTIONS = {kind.value: kind for kind in SectionKind}
 
+BLANKS = " \t\f\v\0\ufeff"
+"""Not what Python strips: in the text of a code page letters hold bytes that Unicode counts as blanks."""
+
+_WORD = re.compile(f"[^{BLANKS}]*")
 _LINE = re.compile(r"[^\n]*\n?")
 _CODE = re.compile(r"(?:'[^'\r\n]*'|\"[^\"\r\n]*\"|(?!//)[^\r\n])*")
 _HEAD_NAME = re.compile(r"(?P<name>[^\s:]*?)\s*(?::\s*(?P<absolute>\S*))?")
@@ -26,7 +30,7 @@ _ABSOLUTE = re.compile(r"(OB|SBR|INT)_?([0-9]+)", re.IGNORECASE)
 _NETWORK = re.compile(r"NETWORK\b\s*([0-9]*)", re.IGNORECASE)
 _TITLE = re.compile(r"TITLE\s*=?", re.IGNORECASE)
 _DECLARATION = re.compile(r"(?P<name>[^\s:;]+)\s*:\s*(?P<type>\w+)\s*;?")
-_OPERAND = re.compile(r"\s*((?:'[^'\r\n]*'|\"[^\"\r\n]*\"|[^,'\"])*)")
+_OPERAND = re.compile(r"[ \t\f\v]*((?:'[^'\r\n]*'|\"[^\"\r\n]*\"|[^,'\"])*)")
 
 
 class _Line(NamedTuple):
@@ -39,8 +43,7 @@ class _Line(NamedTuple):
     @property
     def word_span(self) -> Span:
         """Of the first word, which may be shorter than in upper case."""
-        length = len(self.text.split(None, 1)[0]) if self.text else 0
-        return Span(self.span.start, self.span.start + length)
+        return Span(self.span.start, self.span.start + len(_first_word(self.text)))
 
 
 def parse(source: SourceText) -> tuple[Block, ...]:
@@ -171,7 +174,7 @@ class _Parser:
         while True:
             match = _OPERAND.match(self.source.text, start, end)
             assert match is not None
-            text = match[1].rstrip()
+            text = match[1].rstrip(BLANKS)
             span = Span(match.start(1), match.start(1) + len(text))
             if match.end() < end and self.source.text[match.end()] != ",":
                 raise self.source.error("quote is not closed on this line; add one", Span(match.end(), end))
@@ -186,12 +189,17 @@ class _Parser:
 _CLOSING = frozenset(f"END_{head}" for head in HEADS)
 
 
+def _first_word(text: str) -> str:
+    match = _WORD.match(text)
+    return match.group() if match else ""
+
+
 def _lines(text: str) -> Iterator[_Line]:
     """Lines that say something."""
     for match in _LINE.finditer(text):
         code = _CODE.match(text, match.start(), match.end())
         assert code is not None
-        stripped = code.group().strip().strip("\ufeff\0").strip()
+        stripped = code.group().strip(BLANKS)
         if stripped:
             start = match.start() + code.group().index(stripped)
-            yield _Line(stripped, Span(start, start + len(stripped)), stripped.split(None, 1)[0].upper())
+            yield _Line(stripped, Span(start, start + len(stripped)), _first_word(stripped).upper())

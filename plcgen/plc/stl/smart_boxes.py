@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from plcgen.plc.core import Cell, Literal, Operand
 from plcgen.plc.operators import Operator, move, resolve
-from plcgen.plc.stl.smart_operators import ZERO_STATUS, arithmetic, outcome, status, widened
+from plcgen.plc.stl.smart_operators import CLOCK, ZERO_STATUS, arithmetic, illegal, outcome, status, widened
 from plcgen.plc.stl.smart_rung import SM1, Rung
 from plcgen.plc.stl.smart_slots import Row, box, reads, writes
 from plcgen.plc.types import BOOL, BYTE, DINT, INT, LINT, REAL, WORD, Elementary
@@ -22,6 +22,14 @@ def settle(rung: Rung, target: Cell, result: Operand, divisor: Operand | None = 
     rung.assign(SM1, status(kind, divides), SM1, result, *extra)
     rung.assign(target, outcome(kind, divides), target, result, *extra)
     rung.failures = (OVERFLOW, DIVISION_BY_ZERO) if divides else (OVERFLOW,)
+
+
+def convert(rung: Rung, target: Cell, result: Operand) -> None:
+    """The same for a conversion, which tells no more than whether the result fits."""
+    assert isinstance(target.type, Elementary)
+    rung.assign(SM1, illegal(target.type), SM1, result)
+    rung.assign(target, outcome(target.type), target, result)
+    rung.failures = (OVERFLOW,)
 
 
 # ---------------------------------------------------------------------------------------------------------- moves
@@ -102,7 +110,7 @@ def converted(source: Elementary, target: Elementary) -> Row:
     """IN, OUT between integers; what does not fit sets SM1.1 and changes nothing."""
 
     def emit(rung: Rung, taken: Operand, given: Cell) -> None:
-        settle(rung, given, rung.result(widened(source, target), taken))
+        convert(rung, given, rung.result(widened(source, target), taken))
 
     return box(emit, reads(source), writes(target))
 
@@ -118,9 +126,52 @@ def rounded(operator: Operator) -> Row:
     """ROUND and TRUNC: IN REAL, OUT DINT"""
 
     def emit(rung: Rung, taken: Operand, given: Cell) -> None:
-        settle(rung, given, rung.result(operator, taken))
+        convert(rung, given, rung.result(operator, taken))
 
     return box(emit, reads(REAL), writes(DINT))
+
+
+# -------------------------------------------------------------------------------------------------- codes, BCD
+
+
+def coded(name: str, source: Elementary, target: Elementary, text: str) -> Row:
+    """IN, OUT by a Python text, whatever the value."""
+    operator = Operator(name, (source,), target, text)
+    return box(lambda rung, taken, given: rung.assign(given, operator, taken), reads(source), writes(target))
+
+
+SEGMENTS = bytes.fromhex("3F065B4F666D7D077F67777C395E7971")
+"""What a seven-segment display lights for 0 to F."""
+DECODE = "1 << ({0} & 15)"
+ENCODE = "({0} & -{0} | ({0} == 0)).bit_length() - 1"
+SEVEN_SEGMENTS = f"{tuple(SEGMENTS)}[{{0}} & 15]"
+
+NO_BCD = Cell(SM1.area, SM1.bit + 6, BOOL)
+_TO_BCD = Operator("TO_BCD", (WORD,), WORD, "int(str({0}), 16) if {0} <= 9999 else {0}")
+_FROM_BCD = Operator("FROM_BCD", (WORD,), WORD, "int('%X' % {0}) if ('%X' % {0}).isdecimal() else {0}")
+_ABOVE_BCD = Operator("ABOVE_BCD", (WORD,), BOOL, "{0} > 9999")
+_NOT_DECIMAL = Operator("NOT_DECIMAL", (WORD,), BOOL, "not ('%X' % {0}).isdecimal()")
+
+
+def binary_coded(to_bcd: bool) -> Row:
+    """OUT: IBCD and BCDI; what has no such code sets SM1.6 and stays."""
+
+    def emit(rung: Rung, place: Cell) -> None:
+        rung.assign(NO_BCD, _ABOVE_BCD if to_bcd else _NOT_DECIMAL, place)
+        rung.assign(place, _TO_BCD if to_bcd else _FROM_BCD, place)
+
+    return box(emit, writes(WORD))
+
+
+def milliseconds(rung: Rung, target: Cell) -> None:
+    """BITIM OUT: the clock"""
+    rung.assign(target, CLOCK)
+
+
+def milliseconds_since(rung: Rung, start: Operand, target: Cell) -> None:
+    """CITIM IN, OUT: what the clock went on since IN"""
+    builder = rung.builder
+    builder.move(target, rung.compute("-", rung.result(CLOCK), start))
 
 
 # ---------------------------------------------------------------------------------------------- logic and shifts

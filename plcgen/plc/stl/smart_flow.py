@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from plcgen.plc.core import Cell, Literal, Operand
-from plcgen.plc.operators import Operator
+from plcgen.plc.operators import Operator, move
 from plcgen.plc.stl import syntax
 from plcgen.plc.stl.lowering_interface import Local, locals_of
 from plcgen.plc.stl.smart_operators import ATCH
-from plcgen.plc.stl.smart_rung import Loop, Rung
+from plcgen.plc.stl.smart_rung import FALSE, TRUE, Loop, Rung, Step
 from plcgen.plc.stl.smart_slots import block
 from plcgen.plc.stl.syntax import BlockKind
-from plcgen.plc.types import INT
+from plcgen.plc.types import BOOL, INT
 
 ONE = Literal(1, INT)
 
@@ -74,6 +74,40 @@ def end_loop(rung: Rung) -> None:
     rung.builder.move(loop.index, rung.compute("+", loop.index, ONE))
     rung.builder.jump(loop.repeat)
     rung.builder.place(loop.leave)
+
+
+# ------------------------------------------------------------------------------------------------ sequence control
+
+
+def begin_step(rung: Rung, bit: Cell) -> None:
+    """LSCR S bit: up to SCRE the program runs only while the bit is 1."""
+    if rung.step is not None:
+        raise rung.error("LSCR inside a step; write SCRE above it")
+    rung.step = Step(rung.statement, bit, rung.builder.label())
+    rung.builder.branch(bit, rung.step.leave, when=False)
+
+
+def _step(rung: Rung) -> Step:
+    if rung.step is None:
+        raise rung.error(f"{rung.statement.mnemonic} outside a step; write LSCR above it")
+    return rung.step
+
+
+def next_step(rung: Rung, bit: Cell) -> None:
+    """SCRT S bit: that step begins, the running one ends with the scan."""
+    rung.assign(_step(rung).bit, move(BOOL), FALSE)
+    rung.assign(bit, move(BOOL), TRUE)
+
+
+def leave_step(rung: Rung) -> None:
+    """CSCRE: the rest of the step is skipped."""
+    rung.builder.branch(rung.top, _step(rung).leave, when=True)
+
+
+def end_step(rung: Rung) -> None:
+    """SCRE"""
+    rung.builder.place(_step(rung).leave)
+    rung.step = None
 
 
 # ---------------------------------------------------------------------------------------------------------- calls

@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 from plcgen.plc.core import Area, Cell, Operand
 from plcgen.plc.operators import move
 from plcgen.plc.stl.smart_loops import Lane
-from plcgen.plc.stl.smart_memory import COUNTER_BITS, COUNTERS, PHYSICAL_OUTPUTS, TIMER_BITS, TIMERS
+from plcgen.plc.stl.smart_memory import (
+    AREAS,
+    COUNTER_BITS,
+    COUNTERS,
+    LOCAL_BYTES,
+    PHYSICAL_OUTPUTS,
+    SM,
+    TIMER_BITS,
+    TIMERS,
+)
 from plcgen.plc.stl.smart_rung import Rung
-from plcgen.plc.types import BOOL, INT, WORD_BITS
+from plcgen.plc.types import BOOL, BYTE, INT, WORD_BITS
+
+SHIFTED_OUT = Cell(SM, 9, BOOL)
 
 Meeting = Callable[[Rung, Operand], None]
 """How a new bit meets the stack: LD pushes it, A and O join it to the top."""
@@ -130,8 +142,30 @@ def alone(_rung: Rung, _bit: Cell) -> Sequence[Lane]:
     return ()
 
 
+def write_now(rung: Rung, source: Operand, target: Cell) -> None:
+    """BIW IN, OUT: a byte of outputs at once."""
+    rung.assign(target, move(BYTE), source)
+    rung.assign(_physical(rung, target), move(BYTE), source)
+
+
+def shift_register(rung: Rung, data: Operand, first: Cell, count: int) -> None:
+    """SHRB DATA, S_BIT, N: |N| bits from S_BIT on move up (N > 0) or down, DATA comes in, SM1.1 goes out."""
+    if not count:
+        return
+    length = abs(count)
+    cells = [Cell(first.area, first.bit + place, BOOL) for place in range(length)]
+    if first.bit + length > 8 * AREAS.get(first.area, LOCAL_BYTES):
+        raise rung.error(f"N = {count} reaches beyond the end of {first.area}; write fewer")
+    order = cells[::-1] if count > 0 else cells
+    value = rung.result(move(BOOL), data)
+    rung.assign(SHIFTED_OUT, move(BOOL), order[0])
+    for target, source in pairwise(order):
+        rung.assign(target, move(BOOL), source)
+    rung.assign(order[-1], move(BOOL), value)
+
+
 def _physical(rung: Rung, target: Cell) -> Cell:
     if target.area is not Area.OUTPUTS:
         word = rung.statement.mnemonic
         raise rung.error(f"{word} takes outputs only; write {word.rstrip('I')}, or an address of Q")
-    return Cell(PHYSICAL_OUTPUTS, target.bit, BOOL)
+    return Cell(PHYSICAL_OUTPUTS, target.bit, target.type)

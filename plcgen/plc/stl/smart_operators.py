@@ -54,6 +54,13 @@ def status(result: Elementary, divides: bool = False) -> Operator:
 
 
 @cache
+def illegal(result: Elementary) -> Operator:
+    """The second step of a conversion, (SM1, result) : SM1. It touches SM1.1 alone."""
+    sound = _sound("{1}", result)
+    return Operator("ILLEGAL", (BYTE, LINT), BYTE, f"{{0}} & {255 - ILLEGAL} | (0 if {sound} else {ILLEGAL})")
+
+
+@cache
 def outcome(result: Elementary, divides: bool = False) -> Operator:
     """The third step, (old output, result[, divisor]) : new output."""
     value = REAL if result is REAL else LINT

@@ -44,6 +44,15 @@ class Loop:
 
 
 @dataclass
+class Step:
+    """A step between LSCR and SCRE."""
+
+    statement: syntax.Statement
+    bit: Cell
+    leave: str
+
+
+@dataclass
 class Rung:
     """The block being lowered. `failures` are the bits of SM1 that tell AENO whether the last box failed."""
 
@@ -56,6 +65,7 @@ class Rung:
     failures: tuple[Cell, ...] = ()
     statement: syntax.Statement = field(init=False)
     loops: list[Loop] = field(default_factory=list)
+    step: Step | None = None
     labels: set[int] = field(default_factory=set)
     _guard: tuple[Operand, str] | None = None
 

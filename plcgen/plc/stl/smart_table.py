@@ -8,12 +8,19 @@ from plcgen.plc.stl import smart_flow as flow
 from plcgen.plc.stl import smart_logic as bits
 from plcgen.plc.stl import smart_timing as timing
 from plcgen.plc.stl.smart_boxes import (
+    DECODE,
+    ENCODE,
+    SEVEN_SEGMENTS,
+    binary_coded,
     bitwise,
+    coded,
     converted,
     divide_wide,
     extended,
     function,
     inverted,
+    milliseconds,
+    milliseconds_since,
     moved,
     multiply_wide,
     rounded,
@@ -47,6 +54,7 @@ LEVEL = number(0, 31, "level of the logic stack")
 LABEL = number(0, 255, "label")
 EVENT = number(0, 44, "interrupt event")
 CHANNEL = number(0, 2, "pulse output")
+REGISTER = number(-64, 64, "number of bits")
 ROUTINE = block(BlockKind.INTERRUPT)
 
 CONTACTS: Mapping[str, Row] = {
@@ -99,6 +107,8 @@ MOVES: Mapping[str, Row] = {
     "BMD": box(block_move(DINT), written(DINT), written(DINT), written(BYTE)),
     "FILL": box(fill(INT), written(INT), written(INT), written(BYTE)),
     "SWAP": swap(),
+    "BIR": moved(BYTE),
+    "BIW": box(bits.write_now, reads(BYTE), writes(BYTE)),
 }
 
 ARITHMETIC: Mapping[str, Row] = {
@@ -124,6 +134,11 @@ CONVERSIONS: Mapping[str, Row] = {
     "DTR": extended(DINT, REAL),
     "ROUND": rounded(ROUND),
     "TRUNC": rounded(TRUNC),
+    "DECO": coded("DECO", BYTE, WORD, DECODE),
+    "ENCO": coded("ENCO", WORD, BYTE, ENCODE),
+    "SEG": coded("SEG", BYTE, BYTE, SEVEN_SEGMENTS),
+    "IBCD": binary_coded(to_bcd=True),
+    "BCDI": binary_coded(to_bcd=False),
 }
 
 BITS_AND_SHIFTS: Mapping[str, Row] = {
@@ -138,6 +153,7 @@ BITS_AND_SHIFTS: Mapping[str, Row] = {
         for word, symbol in (("SR", "SHR"), ("SL", "SHL"), ("RR", "ROR"), ("RL", "ROL"))
         for letter, kind in (("B", BYTE), ("W", WORD), ("D", DWORD))
     },
+    "SHRB": box(bits.shift_register, IN_BIT, OUT_BIT, REGISTER),
 }
 
 COUNTING: Mapping[str, Row] = {
@@ -147,6 +163,8 @@ COUNTING: Mapping[str, Row] = {
     "CTU": logic(timing.count_up, COUNTER, reads(INT)),
     "CTD": logic(timing.count_down, COUNTER, reads(INT)),
     "CTUD": logic(timing.count_both, COUNTER, reads(INT)),
+    "BITIM": box(milliseconds, writes(DINT)),
+    "CITIM": box(milliseconds_since, reads(DINT), writes(DINT)),
 }
 
 CONTROL: Mapping[str, Row] = {
@@ -154,6 +172,10 @@ CONTROL: Mapping[str, Row] = {
     "LBL": logic(flow.label, LABEL),
     "FOR": logic(flow.begin_loop, writes(INT), reads(INT), reads(INT)),
     "NEXT": logic(flow.end_loop),
+    "LSCR": logic(flow.begin_step, OUT_BIT),
+    "SCRT": box(flow.next_step, OUT_BIT),
+    "CSCRE": logic(flow.leave_step),
+    "SCRE": logic(flow.end_step),
     "CALL": Row(flow.call, None, is_box=True),
     "CRET": logic(flow.leave),
     "CRETI": logic(flow.leave),
@@ -189,10 +211,11 @@ MNEMONICS: Mapping[str, Row] = {
 
 # fmt: off
 UNSUPPORTED = frozenset([
-    "AD_T", "ATH", "ATT", "BCDI", "BIR", "BITIM", "BIW", "CFND", "CITIM", "CSCRE", "DECO", "DLED", "DTA", "DTS",
-    "ENCO", "FIFO", "FND<", "FND<>", "FND=", "FND>", "GET", "GPA", "HDEF", "HSC", "HTA", "IBCD", "ITA", "ITS",
-    "LIFO", "LSCR", "NETR", "NETW", "PID", "PUT", "RCV", "RSET", "RTA", "RTS", "SCAT", "SCPY", "SCRE", "SCRT", "SEG",
-    "SFND", "SHRB", "SLEN", "SPA", "SSCPY", "STD", "STI", "STR", "TODR", "TODRX", "TODW", "TODWX", "XMT",
+    "AD_T", "ATH", "ATT", "CFND", "DLED", "DTA", "DTS",
+    "FIFO", "FND<", "FND<>", "FND=", "FND>", "GET", "GPA", "HDEF", "HSC", "HTA", "ITA", "ITS",
+    "LIFO", "NETR", "NETW", "PID", "PUT", "RCV", "RSET", "RTA", "RTS", "SCAT", "SCPY",
+    "SFND", "SLEN", "SPA", "SSCPY", "STD", "STI", "STR", "TODR", "TODRX", "TODW", "TODWX", "XMT",
+    "AS<>", "AS=", "LDS<>", "LDS=", "OS<>", "OS=",
 ])
 # fmt: on
 """Instructions that exist and are not executed here."""

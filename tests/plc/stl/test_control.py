@@ -301,6 +301,48 @@ def test_timer_stops_at_the_end(smart: Make) -> None:
     assert watched(machine, "T96", 40)[-1] == 32767
 
 
+def test_time_between_two_places(smart: Make) -> None:
+    machine = smart(
+        OB1="""
+        LD     First_Scan_On
+        BITIM  VD0
+        ----
+        LD     SM0.0
+        CITIM  VD0, VD4
+        """
+    )
+    assert watched(machine, "VD4", 3) == [0, 5, 10]
+
+
+def test_steps_of_a_sequence(smart: Make) -> None:
+    machine = smart(
+        OB1="""
+        LD     First_Scan_On
+        S      S0.0, 1
+        ----
+        LSCR   S0.0
+        ----
+        LD     SM0.0
+        INCB   VB0
+        SCRT   S0.1
+        ----
+        SCRE
+        ----
+        LSCR   S0.1
+        ----
+        LDN    I0.0
+        CSCRE
+        ----
+        LD     SM0.0
+        INCB   VB1
+        SCRT   S0.0
+        ----
+        SCRE
+        """
+    )
+    assert watched(machine, "VW0", 5, {1: True}) == [0x0100, 0x0101, 0x0202, 0x0303, 0x0404]
+
+
 COUNTED = {1: True, 2: False, 3: True, 4: False, 5: True, 6: False, 7: True}
 
 

@@ -79,9 +79,9 @@ def test_export(encoding: str, newline: str) -> None:
     ]
 
 
-@pytest.mark.parametrize("encoding", ["cp1252", "gbk"])
-def test_symbols_of_a_code_page(encoding: str) -> None:
-    name = {"cp1252": "Größe", "gbk": "速度"}[encoding]
+@pytest.mark.parametrize(("encoding", "name"), [("cp1252", "Größe"), ("gbk", "速度"), ("gbk", "運卄"), ("gbk", "速倕")])
+def test_symbols_of_a_code_page(encoding: str, name: str) -> None:
+    """Letters whose second byte is an ASCII character or a blank of Unicode."""
     text = f"ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD {name}\nEND_ORGANIZATION_BLOCK\n"
     (block,) = parse(decode_source("f.awl", text.encode(encoding)))
     (operand,) = block.networks[0].statements[0].operands

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from plcgen.errors import SourceError
+from plcgen.errors import Fault, SourceError
+from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.source import SourceText, decode_source
 from plcgen.plc.stl.lowering import lower
 from plcgen.plc.stl.parser import parse
@@ -137,6 +138,11 @@ STATEMENTS = [
     ("LD SM0.0\nJMP 4", "2:1: no LBL 4 in MAIN; a jump stays in its block"),
     ("NEXT", "1:1: NEXT without FOR; write FOR above it"),
     ("LD SM0.0\nFOR VW0, +1, +2", "2:1: FOR without NEXT; write NEXT in a network of its own"),
+    ("LSCR S0.0", "1:1: LSCR without SCRE; write SCRE in a network of its own"),
+    ("LSCR S0.0\nLSCR S0.1", "2:1: LSCR inside a step; write SCRE above it"),
+    ("LD SM0.0\nSCRT S0.0", "2:1: SCRT outside a step; write LSCR above it"),
+    ("SCRE", "1:1: SCRE outside a step; write LSCR above it"),
+    ("LD SM0.0\nSHRB I0.0, M31.7, 2", "2:1: N = 2 reaches beyond the end of M; write fewer"),
     ("LBL 1\nLBL 1", "2:1: LBL 1 stands twice in MAIN; give one another number"),
     ("LD SM0.0\nCALL", "2:1: CALL of what? write the name of a subroutine"),
     ("LD SM0.0\nCALL Strat", "2:6: no subroutine Strat; did you mean Start?"),
@@ -195,6 +201,14 @@ def test_the_caret_stands_under_the_operand_whatever_the_tabs() -> None:
 
 
 WORDS = st.sampled_from([*MNEMONICS, "NETWORK 1", "BEGIN", "END_VAR", "VAR", "TITLE=", "END_ORGANIZATION_BLOCK"])
+
+
+def _lengths(word: str) -> dict[str, int]:
+    """As many operands as the instruction takes."""
+    slots = MNEMONICS[word].slots
+    return {"min_size": 1, "max_size": 3} if slots is None else {"min_size": len(slots), "max_size": len(slots)}
+
+
 OPERANDS = st.sampled_from(
     [
         "VW0",
@@ -208,6 +222,9 @@ OPERANDS = st.sampled_from(
         "T37",
         "C1",
         "AC1",
+        "*VD0",
+        "VB3",
+        "Q0.5",
         "x",
         "SBR0",
         "'A'",
@@ -216,17 +233,28 @@ OPERANDS = st.sampled_from(
         "9",
     ]
 )
-LINES = st.builds(lambda word, operands: f"{word} {', '.join(operands)}", WORDS, st.lists(OPERANDS, max_size=4))
+STATEMENTS_OF_A_TABLE = st.sampled_from(sorted(MNEMONICS)).flatmap(
+    lambda word: st.tuples(st.just(word), st.lists(OPERANDS, **_lengths(word)))
+)
+LINES = (STATEMENTS_OF_A_TABLE | st.tuples(WORDS, st.lists(OPERANDS, max_size=4))).map(
+    lambda pair: f"{pair[0]} {', '.join(pair[1])}"
+)
 
 
-@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=500, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(LINES, max_size=12))
-def test_any_lines_are_lowered_or_refused(lines: list[str]) -> None:
+def test_any_lines_are_executed_or_refused(lines: list[str]) -> None:
     text = HEAD + "LD I0.0\n" + "\n".join(lines) + "\nEND_ORGANIZATION_BLOCK" + OTHERS
     try:
-        lower(parse(SourceText("f.awl", text)))
+        machine = Smart(lower(parse(SourceText("f.awl", text))))
     except SourceError as error:
         assert error.location is not None
+        return
+    machine.memory["V"][:16] = bytes.fromhex("08001FF0 42280000 FFFFFFFF 7F800001")
+    try:
+        machine.run_until(20_000)
+    except Fault as fault:
+        assert fault.location is not None
 
 
 @given(st.binary(max_size=200))
