@@ -70,10 +70,6 @@ def outcome(result: Elementary, divides: bool = False) -> Operator:
     return Operator("OUTCOME", (result, value), result, f"{{1}} if {sound} else {{0}}")
 
 
-def _divisor(result: Elementary) -> Elementary:
-    return result
-
-
 ZERO_STATUS: Mapping[Elementary, Operator] = {
     kind: Operator("ZERO_STATUS", (BYTE, kind), BYTE, f"{{0}} & {255 - ZERO} | ({ZERO} if {{1}} == 0 else 0)")
     for kind in (BYTE, WORD, DWORD)

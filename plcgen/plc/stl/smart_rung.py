@@ -205,9 +205,8 @@ class Rung:
             raise self.error(str(error), operand) from None
 
     def _named(self, operand: syntax.Name, kind: Elementary) -> Cell:
-        local = next(
-            (item for item in self.locals if item.declaration.name.casefold() == operand.text.casefold()), None
-        )
+        name = operand.text.casefold()
+        local = next((item for item in self.locals if item.declaration.name.casefold() == name), None)
         if local is not None:
             if local.type.bits != kind.bits:
                 raise self.error(f"{operand.text} is {local.type}, {self.statement.mnemonic} takes {kind}", operand)

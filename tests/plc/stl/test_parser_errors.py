@@ -203,10 +203,10 @@ def test_the_caret_stands_under_the_operand_whatever_the_tabs() -> None:
 WORDS = st.sampled_from([*MNEMONICS, "NETWORK 1", "BEGIN", "END_VAR", "VAR", "TITLE=", "END_ORGANIZATION_BLOCK"])
 
 
-def _lengths(word: str) -> dict[str, int]:
-    """As many operands as the instruction takes."""
+def _lengths(word: str) -> tuple[int, int]:
+    """How many operands the instruction takes, at least and at most."""
     slots = MNEMONICS[word].slots
-    return {"min_size": 1, "max_size": 3} if slots is None else {"min_size": len(slots), "max_size": len(slots)}
+    return (1, 3) if slots is None else (len(slots), len(slots))
 
 
 OPERANDS = st.sampled_from(
@@ -234,7 +234,7 @@ OPERANDS = st.sampled_from(
     ]
 )
 STATEMENTS_OF_A_TABLE = st.sampled_from(sorted(MNEMONICS)).flatmap(
-    lambda word: st.tuples(st.just(word), st.lists(OPERANDS, **_lengths(word)))
+    lambda word: st.tuples(st.just(word), st.lists(OPERANDS, min_size=_lengths(word)[0], max_size=_lengths(word)[1]))
 )
 LINES = (STATEMENTS_OF_A_TABLE | st.tuples(WORDS, st.lists(OPERANDS, max_size=4))).map(
     lambda pair: f"{pair[0]} {', '.join(pair[1])}"
