@@ -18,6 +18,7 @@ from plcgen.plc.cpu.pto import PORTS, Channel, Violation
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
+from plcgen.plc.stl.smart_costs import COSTS
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, SM, STARTS, V, cell_at, default_type, pointed
 from plcgen.plc.stl.smart_symbols import SYSTEM_SYMBOLS
 from plcgen.plc.stl.syntax import BlockKind
@@ -111,6 +112,8 @@ class Smart:
     a pulse output, such as {"Q0.0": "Q0.4"}: pulses sent while it is 1 count backwards.
 
     Instead of MAIN, `cycle` may name a block that a scan runs, with `arguments`; `results` are what it handed back.
+    Of a program lowered with `timed`, `run_times` holds what MAIN and each INT took at the most, with all they called,
+    in us: an estimate from `costs`, on which no time here depends.
     """
 
     def __init__(
@@ -122,10 +125,14 @@ class Smart:
         temp_fill: int = 0,
         directions: Mapping[str, str] | None = None,
         cycle: str = MAIN,
+        costs: Mapping[str, float] = COSTS,
     ) -> None:
         self.program = program
         self.arguments: Sequence[Any] = ()
         self.results: Any = None
+        self.run_times: dict[str, float] = {}
+        self._costs = [costs[name] for name in COSTS]
+        self._spent = 0.0
         self._cycle = cycle
         self.scan_us = scan_us
         self.time_us = 0
@@ -158,6 +165,7 @@ class Smart:
             "disi": lambda: self._enable(False),
             "stop": self._stop,
             "wdr": lambda: None,
+            "spend": self._spend,
             "clock": lambda: self.time_us // MILLISECOND,
         }
 
@@ -213,12 +221,14 @@ class Smart:
         if not self.running:
             return None
         self._refresh()
+        self._spent = 0.0
         try:
             return self._processor.call(name, arguments=arguments)
         except _StopMode:
             self.running = False
             return None
         finally:
+            self.run_times[name] = max(self._spent, self.run_times.get(name, 0.0))
             self._watch_directions()
 
     def _refresh(self) -> None:
@@ -233,6 +243,9 @@ class Smart:
 
     def _stop(self) -> None:
         raise _StopMode
+
+    def _spend(self, number: int) -> None:
+        self._spent += self._costs[number]
 
     # ----------------------------------------------------------------------------------------------------- interrupts
 

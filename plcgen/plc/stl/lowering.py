@@ -6,38 +6,41 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from plcgen.plc.builder import Builder
-from plcgen.plc.core import Function, Program
+from plcgen.plc.core import Function, Literal, Program
 from plcgen.plc.source import Span
 from plcgen.plc.stl.lowering_interface import locals_of
 from plcgen.plc.stl.lowering_names import Names
+from plcgen.plc.stl.smart_costs import CLASSES, NUMBERS, SPEND
 from plcgen.plc.stl.smart_memory import LOCAL_BYTES
 from plcgen.plc.stl.smart_rung import Edges, Rung
 from plcgen.plc.stl.smart_slots import Row
 from plcgen.plc.stl.smart_table import MNEMONICS, UNSUPPORTED
 from plcgen.plc.stl.syntax import Block, Statement
 from plcgen.plc.suggest import did_you_mean
+from plcgen.plc.types import INT
 from plcgen.plc.verifier import verify
 
 NO_SYMBOLS: Mapping[str, str] = MappingProxyType({})
 
 
-def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS) -> Program:
+def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS, timed: bool = False) -> Program:
     """A verified program of the blocks OB1, SBR0, INT0 ... `symbols` maps names to addresses such as VD100.
 
+    With `timed` it tells the machine of each instruction that it executes, for an estimate of run times.
     Raises SourceError for whatever cannot be understood or is not supported.
     """
     names, edges = Names(blocks, symbols), Edges()
-    functions = {name: _function(name, block, names, edges) for name, block in names.blocks.items()}
+    functions = {name: _function(name, block, names, edges, timed) for name, block in names.blocks.items()}
     return verify(Program(functions, {}, names.symbols))
 
 
-def _function(name: str, block: Block, names: Names, edges: Edges) -> Function:
+def _function(name: str, block: Block, names: Names, edges: Edges, timed: bool) -> Function:
     local = locals_of(block)
     rung = Rung(block, names, local, edges, Builder(block.span))
     for network in block.networks:
         rung.start_network()
         for statement in network.statements:
-            _statement(rung, statement)
+            _statement(rung, statement, timed)
         rung.close_guard()
     _finish(rung)
     return Function(
@@ -51,7 +54,7 @@ def _function(name: str, block: Block, names: Names, edges: Edges) -> Function:
     )
 
 
-def _statement(rung: Rung, statement: Statement) -> None:
+def _statement(rung: Rung, statement: Statement, timed: bool) -> None:
     rung.statement, rung.builder.span = statement, statement.span
     row = _row(rung, statement)
     if row.is_box:
@@ -59,6 +62,8 @@ def _statement(rung: Rung, statement: Statement) -> None:
         rung.failures = ()
     else:
         rung.close_guard()
+    if timed:
+        rung.result(SPEND, Literal(NUMBERS[CLASSES[statement.mnemonic]], INT))
     row.emit(rung, *_operands(rung, statement, row))
 
 
