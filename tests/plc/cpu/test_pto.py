@@ -234,7 +234,7 @@ def test_idle_exactly_at_the_tick(smart: Make) -> None:
     assert (machine.violations, machine.variable("VB0").get(), len(machine.channels["Q0.0"].segments)) == ([], 0, 100)
 
 
-@settings(max_examples=200)
+@settings(max_examples=200, deadline=None)
 @given(first=st.integers(1, 100_000), last=st.integers(1, 100_000), pulses=st.integers(1, 3000))
 def test_instants_and_positions_agree(first: int, last: int, pulses: int) -> None:
     duration = 2_000_000 * pulses / (first + last)

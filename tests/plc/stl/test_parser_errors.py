@@ -241,7 +241,7 @@ LINES = (STATEMENTS_OF_A_TABLE | st.tuples(WORDS, st.lists(OPERANDS, max_size=4)
 )
 
 
-@settings(max_examples=500, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=500, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(LINES, max_size=12))
 def test_any_lines_are_executed_or_refused(lines: list[str]) -> None:
     text = HEAD + "LD I0.0\n" + "\n".join(lines) + "\nEND_ORGANIZATION_BLOCK" + OTHERS
@@ -257,6 +257,7 @@ def test_any_lines_are_executed_or_refused(lines: list[str]) -> None:
         assert fault.location is not None
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=200))
 def test_any_bytes_are_parsed_or_refused(data: bytes) -> None:
     try:
