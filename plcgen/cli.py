@@ -351,16 +351,20 @@ def check(folder: Path, update: bool) -> None:
 @click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
 @click.option("--target", metavar="T", help="Import rules of this target; default what the text looks like.")
 def lint(files: tuple[Path, ...], target: str | None) -> None:
-    """Check SCL sources: syntax, types, and what STEP 7 and TIA refuse at import. Blocks may use blocks of other FILEs.
+    """Check SCL and S7-200 SMART sources: syntax, types, and what STEP 7, TIA and Micro/WIN refuse or drop at import.
+
+    Blocks may use blocks of other FILEs.
 
     \b
     Example:
       plcgen lint motor.scl main.scl --target s7-300-scl
+      plcgen lint MAIN.awl SBR_0.awl INT_0.awl
     """
     from plcgen.lint import lint_files
+    from plcgen.targets import LINTED
     from plcgen.targets import target as row
 
-    findings = lint_files(files, row(target).name if target else None)
+    findings = lint_files(files, row(target, LINTED).name if target else None)
     for finding in findings:
         excerpt = finding.location.excerpt()
         terminal.say(f"{finding}\n{excerpt}" if excerpt else str(finding))
@@ -373,7 +377,7 @@ def lint(files: tuple[Path, ...], target: str | None) -> None:
 
 @main.command()
 @click.argument("file", type=PATH)
-@click.option("--block", required=True, metavar="NAME", help="FB, FC or OB to call once a scan.")
+@click.option("--block", required=True, metavar="NAME", help="FB, FC, OB, SBR or INT to call once a scan.")
 @click.option("--scans", required=True, type=click.IntRange(1), metavar="N", help="Number of scans.")
 @click.option("--period", required=True, metavar="TIME", help="From scan to scan: 10ms, 0.01s, 1s.")
 @click.option("--set", "inputs", multiple=True, metavar="NAME=VALUE", help="Set a variable before the first scan.")
@@ -388,14 +392,15 @@ def run(
     watch: tuple[str, ...],
     output: Path | None,
 ) -> None:
-    """Execute any block of an SCL source and print its variables as CSV, one row a scan.
+    """Execute any block of an SCL or S7-200 SMART source and print its variables as CSV, one row a scan.
 
     An FB runs on the instance that FILE declares for it, else on a fresh one. Inputs keep their value.
-    M0.0, MW10 and members of data blocks can be set and watched too.
+    M0.0, MW10 and members of data blocks can be set and watched too, V memory of a SMART as VD100 or VD100:REAL.
 
     \b
     Example:
       plcgen run ramp.scl --block FB1 --scans 100 --period 10ms --set enable=true --watch speed
+      plcgen run axis.awl --block MAIN --scans 100 --period 10ms --set VD100=5 --watch VD100,Q0.0
     """
     from plcgen.files import write_file
     from plcgen.run import Order, parse_period, run_file

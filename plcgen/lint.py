@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from plcgen.errors import Location, SourceError
+from plcgen.lint_smart import smart_findings
 from plcgen.plc.importrules.finding import Finding
 from plcgen.plc.importrules.s7_scl import findings as import_findings
 from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect, detect_dialect
@@ -14,7 +15,8 @@ from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block
 from plcgen.plc.source import SourceText, Span, read_source
-from plcgen.targets import TARGETS
+from plcgen.plc.stl.detection import is_smart
+from plcgen.targets import SMART, TARGETS
 
 DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
 
@@ -35,9 +37,11 @@ def lint_files(paths: Sequence[Path], target: str | None = None) -> list[Finding
     Raises SourceError only for a file that cannot be opened.
     """
     sources = [read_source(path) for path in paths]
-    files = [_read(source, target) for source in sources]
+    smart = [source for source in sources if target == SMART.name or (target is None and is_smart(source))]
+    files = [_read(source, target) for source in sources if source not in smart]
     found = [finding for file in files for finding in file.findings]
     found += [finding for dialect in DIALECTS.values() for finding in _type_errors(files, dialect)]
+    found += smart_findings(smart)
     order = {source.name: number for number, source in enumerate(sources)}
     return sorted(found, key=lambda finding: (order[finding.location.file], *_position(finding.location)))
 

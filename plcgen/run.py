@@ -24,8 +24,10 @@ from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.lowering_declarations import CALLABLE, Catalogue, Interface, Parameter
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block, BlockKind, SectionKind
-from plcgen.plc.source import Span, read_source
+from plcgen.plc.source import SourceText, Span, read_source
+from plcgen.plc.stl.detection import is_smart
 from plcgen.plc.types import CHAR, Elementary, Family, String, Type
+from plcgen.run_smart import smart_run
 from plcgen.trajectory import Trajectory
 
 INSTANCE = "plcgen\tinstance"
@@ -54,21 +56,19 @@ class Outcome:
 
 @dataclass(frozen=True)
 class _Subject:
-    """A block that can be scanned, and how its variables are found."""
+    """A block that can be scanned, how its variables are found, and what the CPU noted."""
 
-    machine: S7300
     scan: Callable[[int], object]
     variable: Callable[[str], Variable]
     outputs: tuple[str, ...]
+    faults: Sequence[FaultRecord]
+    violations: Sequence[object] = ()
 
 
 def run_file(order: Order, progress: Callable[[str], None]) -> Outcome:
     """Raises SourceError for a file that cannot be run, PlcgenError for names and values that do not fit."""
     source = read_source(order.file)
-    dialect = detect_dialect(source)
-    blocks = parse(source, dialect)
-    program = lower(blocks, dialect)
-    subject = _subject(program, blocks, order)
+    subject = _smart(source, order) if is_smart(source) else _scl(source, order)
     for name, text in order.inputs:
         variable = subject.variable(name)
         variable.set(parse_value(text, variable, name))
@@ -82,8 +82,6 @@ def _scan(subject: _Subject, order: Order, progress: Callable[[str], None]) -> O
     for number in range(order.scans):
         if number % 1000 == 0:
             progress(f"scan {number} of {order.scans}")
-        subject.machine.scan = number
-        subject.machine.clock = float(number * order.period * 1000)
         try:
             subject.scan(number)
         except Fault as fault:
@@ -95,7 +93,8 @@ def _scan(subject: _Subject, order: Order, progress: Callable[[str], None]) -> O
     times = [float(number * order.period) for number in range(done)]
     trace = {"scan": np.arange(done), "time": np.array(times, dtype=np.float64)}
     trace |= {name: _column(columns[name], variable) for name, variable in watched.items()}
-    return Outcome(Trajectory(trace), (*_in_words(subject.machine.faults), *stops))
+    violations = tuple(str(violation) for violation in subject.violations)
+    return Outcome(Trajectory(trace), (*_in_words(subject.faults), *violations, *stops))
 
 
 def _in_words(faults: Sequence[FaultRecord]) -> list[str]:
@@ -121,6 +120,29 @@ def _excerpt(fault: FaultRecord) -> str:
 # --------------------------------------------------------------------------------------------------------- subject
 
 
+def _smart(source: SourceText, order: Order) -> _Subject:
+    """A block of an S7-200 SMART: one call a period, interrupts and pulses between."""
+    run = smart_run(source, order.block, order.period)
+    return _Subject(lambda _number: run.scan(), run.variable, run.outputs, run.machine.faults, run.machine.violations)
+
+
+def _scl(source: SourceText, order: Order) -> _Subject:
+    dialect = detect_dialect(source)
+    blocks = parse(source, dialect)
+    return _subject(lower(blocks, dialect), blocks, order)
+
+
+def _timed(machine: S7300, order: Order, scan: Callable[[int], object]) -> Callable[[int], object]:
+    """The scan, with number and clock of the machine set before it."""
+
+    def timed(number: int) -> object:
+        machine.scan = number
+        machine.clock = float(number * order.period * 1000)
+        return scan(number)
+
+    return timed
+
+
 def _subject(program: Program, blocks: Sequence[Block], order: Order) -> _Subject:
     name = _function_name(program, order)
     catalogue = Catalogue(blocks, {})
@@ -144,7 +166,7 @@ def _choice(word: str, known: Mapping[str, object] | Sequence[str]) -> str:
     return f"did you mean {near}?" if near else f"there is {', '.join(known)}" if known else "there is none"
 
 
-def _instance(program: Program, interface: Interface, _order: Order) -> _Subject:
+def _instance(program: Program, interface: Interface, order: Order) -> _Subject:
     """An FB on the instance that the file declares for it, else on a fresh one."""
     structure = interface.instance
     assert structure is not None
@@ -161,10 +183,10 @@ def _instance(program: Program, interface: Interface, _order: Order) -> _Subject
     def scan(_number: int) -> object:
         return machine.call(interface.name, data)
 
-    return _Subject(machine, scan, variable, _outputs(interface))
+    return _Subject(_timed(machine, order, scan), variable, _outputs(interface), machine.faults)
 
 
-def _function(program: Program, interface: Interface, _order: Order) -> _Subject:
+def _function(program: Program, interface: Interface, order: Order) -> _Subject:
     """An FC: arguments wait in a table between scans, what it hands back goes into the same table."""
     machine = S7300(program)
     result = [Parameter(interface.name, SectionKind.OUTPUT, interface.result)] if interface.result else []
@@ -184,7 +206,8 @@ def _function(program: Program, interface: Interface, _order: Order) -> _Subject
             return _global(machine, name, interface, [p.name for p in parameters.values()])
         return _parameter_variable(parameter, values)
 
-    return _Subject(machine, scan, variable, (*(p.name for p in result), *_outputs(interface)))
+    outputs = (*(p.name for p in result), *_outputs(interface))
+    return _Subject(_timed(machine, order, scan), variable, outputs, machine.faults)
 
 
 def _parameter_variable(parameter: Parameter, values: dict[str, Any]) -> Variable:
@@ -220,7 +243,8 @@ def _organization(program: Program, interface: Interface, order: Order) -> _Subj
         frame = header(start, CYCLE_PRIORITY, number, milliseconds, milliseconds, milliseconds)
         return machine.call(interface.name, frame=frame)
 
-    return _Subject(machine, scan, lambda name: _global(machine, name, interface, []), ())
+    timed = _timed(machine, order, scan)
+    return _Subject(timed, lambda name: _global(machine, name, interface, []), (), machine.faults)
 
 
 def _outputs(interface: Interface) -> tuple[str, ...]:

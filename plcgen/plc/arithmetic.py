@@ -177,6 +177,11 @@ class _Events:
         self.report(OVERFLOW, site)
         return _signed(value, minimum, bits)
 
+    def noted(self, value: Any, kind: str, site: int) -> Any:
+        """The value as it is; what becomes of it is the next instruction's business."""
+        self.report(kind, site)
+        return value
+
     def narrow(self, value: int, minimum: int, bits: int, site: int) -> int:
         self.report(OUT_OF_RANGE, site)
         return _signed(value, minimum, bits)
@@ -217,7 +222,7 @@ def library(
     `function_error` is the relative error of SIN, EXP, LN and the like, for CPUs that compute them less exactly.
     """
     events = _Events(report)
-    names = ("special", "over_zero", "wrap", "narrow", "quotient", "remainder", "to_integer")
+    names = ("special", "over_zero", "wrap", "noted", "narrow", "quotient", "remainder", "to_integer")
     reporting = {name: getattr(events, name) for name in names}
     blurred = {name: _blurred(_PURE[name], 1.0 + function_error) for name in _APPROXIMATE if function_error}
     return {**_PURE, **blurred, **reporting, "out_of_bounds": out_of_bounds, "f": array("f", [0.0])}

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
+from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn
 
 from plcgen.errors import Fault, Location
@@ -40,6 +41,10 @@ from plcgen.plc.types import BOOL, BYTE_BITS, ELEMENTARY, Elementary
 
 INDENT = "    "
 
+Bytes = bytearray | memoryview
+"""Memory of an area: its own, or a part of a larger piece."""
+NO_SERVICES: Mapping[str, Callable[..., Any]] = MappingProxyType({})
+
 
 class Site(NamedTuple):
     """An instruction that may meet a fault."""
@@ -55,16 +60,18 @@ class Site(NamedTuple):
 class Engine:
     """Functions of a program over the given memory. `note(kind, site)` is told of arithmetic events.
 
-    See `arithmetic.library` for `function_error`.
+    See `arithmetic.library` for `function_error`. `services` are further names for operator texts: what a CPU does
+    besides computing.
     """
 
     def __init__(
         self,
         program: Program,
-        memory: Mapping[Area | str, bytearray],
+        memory: Mapping[Area | str, Bytes],
         note: Callable[[str, Site], None],
         temp_fill: int = 0,
         function_error: float = 0.0,
+        services: Mapping[str, Callable[..., Any]] = NO_SERVICES,
     ) -> None:
         self.budget = [0]
         self._note = note
@@ -74,7 +81,7 @@ class Engine:
         names = _Names()
         areas = {area: names.of(str(area)) for area in memory}
         functions = {name: names.of(name) for name in program.functions}
-        namespace = self._namespace(memory, areas, function_error)
+        namespace = self._namespace(memory, areas, function_error) | dict(services)
         for name, function in program.functions.items():
             translator = _Translator(function, functions, areas, self._sites, temp_fill)
             self._sources[name] = text = translator.text()
@@ -82,10 +89,11 @@ class Engine:
             self._functions[name] = namespace[functions[name]]
 
     def _namespace(
-        self, memory: Mapping[Area | str, bytearray], areas: Mapping[Area | str, str], function_error: float
+        self, memory: Mapping[Area | str, Bytes], areas: Mapping[Area | str, str], function_error: float
     ) -> dict[str, Any]:
         namespace = library(lambda kind, site: self._note(kind, self._sites[site]), self._out_of_bounds, function_error)
         namespace.update(load_bit=_load_bit, store_bit=_store_bit, budget=self.budget, exhausted=self._exhausted)
+        namespace["stop"] = self._stop
         for row in ELEMENTARY.values():
             namespace.update({f"load_{row}": row.codec.unpack_from, f"store_{row}": row.codec.pack_into})
         namespace.update({areas[area]: data for area, data in memory.items()})

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 from plcgen.errors import Fault, Location, PlcgenError
 from plcgen.plc.addresses import AREA_BYTES, parse_address
 from plcgen.plc.core import GLOBAL_AREAS, Area, Cell, DataBlock, Function, Program
-from plcgen.plc.engine import Engine, Site
+from plcgen.plc.engine import Bytes, Engine, Site
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import (
     BOOL,
@@ -58,7 +58,7 @@ class _Link(NamedTuple):
 
     function: Function
     run: Callable[..., Any]
-    instance: tuple[bytearray, int] | tuple[()]
+    instance: tuple[Bytes, int] | tuple[()]
 
 
 class Machine:
@@ -68,19 +68,27 @@ class Machine:
     their bytes.
     """
 
-    areas: ClassVar[Mapping[Area, int]] = dict.fromkeys(GLOBAL_AREAS, AREA_BYTES)
+    areas: ClassVar[Mapping[Area | str, int]] = dict.fromkeys(GLOBAL_AREAS, AREA_BYTES)
 
     def __init__(self, program: Program, temp_fill: int = 0, budget: int = BUDGET, function_error: float = 0.0) -> None:
         self.program = program
         self.scan = 0
         self.faults: list[FaultRecord] = []
-        self.memory: dict[Area | str, bytearray] = {area: bytearray(size) for area, size in self.areas.items()}
+        self.memory: dict[Area | str, Bytes] = self.global_memory()
         self.memory |= {name: bytearray(block.initial) for name, block in program.data_blocks.items()}
         self._blocks: dict[str, DataBlock] = dict(program.data_blocks)
         self._budget = budget
         self._fill = temp_fill
         self._links: dict[tuple[str, str | None], _Link] = {}
-        self.engine = Engine(program, self.memory, self._note, temp_fill, function_error)
+        self.engine = Engine(program, self.memory, self._note, temp_fill, function_error, self.services())
+
+    def global_memory(self) -> dict[Area | str, Bytes]:
+        """Fresh memory outside data blocks."""
+        return {area: bytearray(size) for area, size in self.areas.items()}
+
+    def services(self) -> Mapping[str, Callable[..., Any]]:
+        """What the CPU does besides computing, by the names that operator texts use."""
+        return {}
 
     def _note(self, kind: str, site: Site) -> None:
         self.record(kind, site.function.name, site.location)
@@ -121,7 +129,7 @@ class Machine:
         size = max(function.frame_bytes, len(head or b""))
         return (bytearray((head or b"").ljust(size, bytes([self._fill]))),)
 
-    def _instance(self, name: str, instance: str | None) -> bytearray:
+    def _instance(self, name: str, instance: str | None) -> Bytes:
         structure = self.program.functions[name].instance
         assert structure is not None
         if instance is None:
@@ -142,7 +150,7 @@ class Machine:
         if not isinstance(cell.type, Elementary | String):
             raise PlcgenError(f"{path} is a {cell.type}; name one of its members")
         memory = self.memory[cell.area]
-        return Variable(path, cell.type, *_accessors(path, memory, cell.bit, cell.type))
+        return Variable(path, cell.type, *accessors(path, memory, cell.bit, cell.type))
 
     def _address(self, path: str) -> Cell | None:
         try:
@@ -199,7 +207,7 @@ def _element(path: str, cell: Cell, text: str) -> Cell:
 _Accessors = tuple[Callable[[], Any], Callable[[Any], None]]
 
 
-def _accessors(path: str, memory: bytearray, bit: int, kind: Type) -> _Accessors:
+def accessors(path: str, memory: Bytes, bit: int, kind: Type) -> _Accessors:
     start = bit // BYTE_BITS
     if isinstance(kind, String):
         return _string_accessors(path, memory, start, kind)
@@ -211,14 +219,14 @@ def _accessors(path: str, memory: bytearray, bit: int, kind: Type) -> _Accessors
     return _number_accessors(path, memory, start, kind)
 
 
-def _bit_accessors(memory: bytearray, start: int, mask: int) -> _Accessors:
+def _bit_accessors(memory: Bytes, start: int, mask: int) -> _Accessors:
     def put(value: object) -> None:
         memory[start] = memory[start] | mask if value else memory[start] & ~mask
 
     return lambda: memory[start] & mask != 0, put
 
 
-def _character_accessors(path: str, memory: bytearray, start: int) -> _Accessors:
+def _character_accessors(path: str, memory: Bytes, start: int) -> _Accessors:
     def put(character: str) -> None:
         try:
             memory[start] = ord(character)
@@ -228,7 +236,7 @@ def _character_accessors(path: str, memory: bytearray, start: int) -> _Accessors
     return lambda: chr(memory[start]), put
 
 
-def _string_accessors(path: str, memory: bytearray, start: int, kind: String) -> _Accessors:
+def _string_accessors(path: str, memory: Bytes, start: int, kind: String) -> _Accessors:
     end = start + kind.bits // BYTE_BITS
 
     def put(text: str) -> None:
@@ -240,7 +248,7 @@ def _string_accessors(path: str, memory: bytearray, start: int, kind: String) ->
     return lambda: kind.decode(bytes(memory[start:end])), put
 
 
-def _number_accessors(path: str, memory: bytearray, start: int, kind: Elementary) -> _Accessors:
+def _number_accessors(path: str, memory: Bytes, start: int, kind: Elementary) -> _Accessors:
     load, store, nearest = kind.codec.unpack_from, kind.codec.pack_into, kind.nearest
 
     def put(value: int | float) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 import pytest
 from hypothesis import given, settings
@@ -188,3 +189,33 @@ def test_temporaries_show_the_fill_pattern() -> None:
     machine = Machine(Program({"FB1": function}), temp_fill=0xCC)
     machine.call("FB1", "DB1")
     assert machine.variable("DB1.v0").get() == -13108
+
+
+class Counting(Machine):
+    """A machine with a service, which is asked for a number and refuses above 2."""
+
+    def services(self) -> dict[str, Callable[..., object]]:
+        return {"next_number": iter([1, 2, 3]).__next__}
+
+
+ASK = Operator("ASK", (), INT, "next_number()", False, "{r} > 2", "stop('%d is too much' % {r}, {site})")
+NOTE = Operator("TWICE", (INT,), INT, "{0} + {0}", False, "{r} > 2", "noted({r}, 'large', {site})")
+
+
+def test_operators_call_services_of_the_machine_and_may_stop_it() -> None:
+    function = Function(
+        "FC1", SOURCE, (Compute(HERE, REGISTERS[0], ASK, ()), Return(HERE)), HERE, results=REGISTERS[:1]
+    )
+    machine = Counting(verify(Program({"FC1": function})))
+    assert [machine.call("FC1"), machine.call("FC1")] == [1, 2]
+    with pytest.raises(Fault) as caught:
+        machine.call("FC1")
+    assert str(caught.value) == "engine.scl:1:1: FC1: 3 is too much (scan 0)\n    x := 1;\n    ^^^^^"
+
+
+def test_a_noted_value_stays_as_it_is() -> None:
+    body = (Compute(HERE, cell("v0"), NOTE, (Literal(7, INT),)), Return(HERE))
+    machine = machine_of(*body)
+    machine.call("FB1", "DB1")
+    assert machine.variable("DB1.v0").get() == 14
+    assert [fault.kind for fault in machine.faults] == ["large"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Generic, Literal, Protocol, TypeVar
 
 from plcgen.errors import Location
 from plcgen.plc.scl.dialects import Dialect
@@ -46,12 +46,22 @@ class Subject:
 Hit = tuple[Span, str]
 
 
+class Sourced(Protocol):
+    """What has a source; rules of one language look at a subject of their own."""
+
+    @property
+    def source(self) -> SourceText: ...
+
+
+Looked = TypeVar("Looked", bound=Sourced)
+
+
 @dataclass(frozen=True)
-class Rule:
+class Rule(Generic[Looked]):
     name: str
     severity: Severity
-    check: Callable[[Subject], Iterator[Hit]]
+    check: Callable[[Looked], Iterator[Hit]]
 
-    def findings(self, subject: Subject) -> Iterator[Finding]:
+    def findings(self, subject: Looked) -> Iterator[Finding]:
         for span, message in self.check(subject):
             yield Finding(subject.source.location(span), self.severity, self.name, message)

@@ -10,7 +10,7 @@ from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect
 from plcgen.plc.scl.syntax import Block
 from plcgen.plc.source import SourceText
 
-RULES: Mapping[str, tuple[Rule, ...]] = {
+RULES: Mapping[str, tuple[Rule[Subject], ...]] = {
     CLASSIC.name: (
         Rule("byte-order-mark", "error", scl_text.no_byte_order_mark),
         Rule("encoding", "error", scl_text.one_byte_characters),
