@@ -361,10 +361,9 @@ def lint(files: tuple[Path, ...], target: str | None) -> None:
       plcgen lint MAIN.awl SBR_0.awl INT_0.awl
     """
     from plcgen.lint import lint_files
-    from plcgen.targets import LINTED
     from plcgen.targets import target as row
 
-    findings = lint_files(files, row(target, LINTED).name if target else None)
+    findings = lint_files(files, row(target).name if target else None)
     for finding in findings:
         excerpt = finding.location.excerpt()
         terminal.say(f"{finding}\n{excerpt}" if excerpt else str(finding))

@@ -11,13 +11,26 @@ from typing import Any
 from pydantic import ValidationError
 
 from plcgen.errors import JobError
-from plcgen.jobfile import METHODS, Blocks, Envelope, HoistFile, HoistLimits, json_schema
+from plcgen.jobfile import METHODS, Blocks, Envelope, HoistFile, HoistLimits, TwoAxisFile, json_schema
+from plcgen.jobfile_two_axis import HIGHEST_V_BYTE, LONGEST_MOVE, Move, TwoAxisLimits
 from plcgen.jobproblems import Problem, problems_of
 from plcgen.jobrules import UNITS_PER_METRE, Context
+from plcgen.names import one_of
 from plcgen.targets import TARGETS, Target
 from plcgen.tomlfile import KeyPath, TomlFile, parse_toml, read_toml
 
-__all__ = ["Blocks", "Envelope", "HoistLimits", "Job", "job_schema", "parse_job", "read_job"]
+__all__ = [
+    "HIGHEST_V_BYTE",
+    "Blocks",
+    "Envelope",
+    "HoistLimits",
+    "Job",
+    "Move",
+    "TwoAxisLimits",
+    "job_schema",
+    "parse_job",
+    "read_job",
+]
 
 
 @dataclass(frozen=True)
@@ -33,8 +46,7 @@ class Job:
     targets: tuple[str, ...]
     length_unit: str
     sample_period: float
-    limits: HoistLimits
-    blocks: Blocks
+    keys: HoistFile | TwoAxisFile
     file: str
     sha256: str
     text: TomlFile = field(repr=False, compare=False)
@@ -42,7 +54,20 @@ class Job:
     @property
     def hoist(self) -> HoistLimits:
         """Limits of the method `hoist`."""
-        return self.limits
+        assert isinstance(self.keys, HoistFile)
+        return self.keys.hoist
+
+    @property
+    def blocks(self) -> Blocks:
+        """Numbers and names of blocks, of the method `hoist`."""
+        assert isinstance(self.keys, HoistFile)
+        return self.keys.blocks
+
+    @property
+    def two_axis(self) -> TwoAxisLimits:
+        """Limits of the method `two-axis`."""
+        assert isinstance(self.keys, TwoAxisFile)
+        return self.keys.two_axis
 
     def error(self, key: str, message: str) -> JobError:
         """An error that points at the value of a key such as `hoist.travel`; at its table when the key is defaulted."""
@@ -76,8 +101,7 @@ def _job(text: TomlFile) -> Job:
         targets=keys.targets,
         length_unit=keys.length_unit,
         sample_period=keys.sample_period,
-        limits=keys.limits,
-        blocks=keys.blocks,
+        keys=keys,
         file=re.sub(r"[^A-Za-z0-9._ -]", "_", Path(text.name).name),
         sha256=text.sha256,
         text=text,
@@ -88,7 +112,7 @@ def _job(text: TomlFile) -> Job:
     return job
 
 
-def _model(data: dict[str, Any]) -> type[HoistFile]:
+def _model(data: dict[str, Any]) -> type[HoistFile] | type[TwoAxisFile]:
     """The model of the job's method. Without a usable one, of the first method whose table is there."""
     named = [name for name in METHODS if data.get("method") == name]
     present = [name for name in METHODS if name in data]
@@ -110,9 +134,12 @@ def _first(problems: list[Problem]) -> JobError:
 
 def _conflicts(job: Job) -> Iterator[tuple[str, str]]:
     """Keys that are right alone and wrong together, each with the end of the sentence."""
-    yield from _hoist_conflicts(job.hoist)
     yield from _target_conflicts(job)
-    yield from _symbol_conflicts(job)
+    if isinstance(job.keys, HoistFile):
+        yield from _hoist_conflicts(job.hoist)
+        yield from _symbol_conflicts(job)
+    else:
+        yield from _two_axis_conflicts(job)
 
 
 def _hoist_conflicts(hoist: HoistLimits) -> Iterator[tuple[str, str]]:
@@ -127,14 +154,34 @@ def _hoist_conflicts(hoist: HoistLimits) -> Iterator[tuple[str, str]]:
         yield "hoist.creep_acceleration", f"is above acceleration = {limit}; write at most {limit}"
 
 
+def _two_axis_conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    """Also what no choice of other keys could mend."""
+    limits = job.two_axis
+    for index, output in enumerate(limits.direction_outputs):
+        if output in limits.outputs:
+            yield f"two-axis.direction_outputs[{index}]", "is a pulse output; write another output"
+    if not limits.moves:
+        yield "two-axis.moves", "holds no move for verification; write [[two-axis.moves]] with x and y below"
+    for index, move in enumerate(limits.moves):
+        pulses = [abs(d) * ppu for d, ppu in zip((move.x, move.y), limits.pulses_per_unit, strict=True)]
+        if max(pulses) < max(1, limits.ignore_below):
+            yield f"two-axis.moves[{index}]", "is no move: both components count as zero; write a longer one"
+        for axis, count in zip("xy", pulses, strict=True):
+            if count > LONGEST_MOVE:
+                most = f"{LONGEST_MOVE} are the most"
+                yield f"two-axis.moves[{index}].{axis}", f"is {count:.0f} pulses; {most}; divide the move"
+
+
 def _target_conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    serving = [name for name, target in TARGETS.items() if job.method in target.methods]
+    way_out = "remove it" if set(serving) & set(job.targets) else f"write {one_of(serving)}"
     if not job.targets:
-        yield "targets", f'names no target; write one or more, such as ["{next(iter(TARGETS))}"]'
+        yield "targets", f'names no target; write one or more, such as ["{serving[0]}"]'
     for index, name in enumerate(job.targets):
         if name in job.targets[:index]:
             yield f"targets[{index}]", "is listed twice; keep one"
         if job.method not in TARGETS[name].methods:
-            yield f"targets[{index}]", f'does not serve the method "{job.method}"'
+            yield f"targets[{index}]", f'does not serve the method "{job.method}"; {way_out}'
 
 
 def _symbol_conflicts(job: Job) -> Iterator[tuple[str, str]]:

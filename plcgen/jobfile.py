@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, TypeAdapter, ValidationInfo, model_validator
 
+from plcgen.jobfile_two_axis import LONGEST_TIMED_INTERRUPT, TwoAxisLimits
 from plcgen.jobrules import UNITS_PER_METRE, Choice, NameRule, Quantity, Table, Whole, whole_milliseconds
 from plcgen.targets import TARGETS
 
@@ -17,6 +18,8 @@ DATA_SUFFIX = "_DB"
 Name = Annotated[str, NameRule()]
 Factor = Annotated[float, Quantity("", 1.0, 3.0)]
 Acceleration = Annotated[float, Quantity("m/s2", 0.01, 100.0)]
+Method = Annotated[str, Choice(("hoist", "two-axis"))]
+Targets = tuple[Annotated[str, Choice(tuple(TARGETS))], ...]
 
 
 class Envelope(Table):
@@ -120,8 +123,8 @@ class JobFile(Table):
     """The keys that every job has. Each method adds its own table."""
 
     name: Name = Field(description="names the function block and the files", examples=["MainShaft"])
-    method: Annotated[str, Choice(("hoist",))] = Field(description="how the motion is planned", examples=["hoist"])
-    targets: tuple[Annotated[str, Choice(tuple(TARGETS))], ...] = Field(
+    method: Method = Field(description="how the motion is planned", examples=["hoist"])
+    targets: Targets = Field(
         description="controllers and languages to write source for", examples=[["s7-300-scl", "tia-scl"]]
     )
     length_unit: Annotated[str, Choice(tuple(UNITS_PER_METRE))] = Field(
@@ -130,20 +133,27 @@ class JobFile(Table):
     sample_period: Annotated[float, Quantity("s", 0.001, 1.0), AfterValidator(whole_milliseconds)] = Field(
         description="period of the cyclic interrupt that calls the block, in whole milliseconds", examples=[0.010]
     )
-    blocks: Blocks = Field(default={}, validate_default=True, description="numbers and names of blocks; optional")
 
 
 class HoistFile(JobFile):
     """A job of the method `hoist`."""
 
     hoist: HoistLimits = Field(description="limits of the motion")
-
-    @property
-    def limits(self) -> HoistLimits:
-        return self.hoist
+    blocks: Blocks = Field(default={}, validate_default=True, description="numbers and names of blocks; optional")
 
 
-METHODS = {"hoist": HoistFile}
+class TwoAxisFile(JobFile):
+    """A job of the method `two-axis`."""
+
+    method: Method = Field(description="how the motion is planned", examples=["two-axis"])
+    targets: Targets = Field(description="controllers and languages to write source for", examples=[["s7-200-smart"]])
+    sample_period: Annotated[
+        float, Quantity("s", 0.001, LONGEST_TIMED_INTERRUPT), AfterValidator(whole_milliseconds)
+    ] = Field(description="period of the timed interrupt, in whole milliseconds", examples=[0.050])
+    two_axis: TwoAxisLimits = Field(alias="two-axis", description="limits of the motion, outputs and memory")
+
+
+METHODS: dict[str, type[HoistFile] | type[TwoAxisFile]] = {"hoist": HoistFile, "two-axis": TwoAxisFile}
 
 
 def json_schema(methods: Iterable[type[JobFile]]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
@@ -51,10 +51,10 @@ def problems_of(error: ValidationError, model: type[BaseModel], text: TomlFile) 
     problems = [_unknown(text, path, place, tables) for path, place in unknown.items()]
     for item in found:
         path = item["loc"]
-        if item["type"] == "missing" and not {path, path[:-1]} & intended:
+        if item["type"] == "missing" and not {_unnumbered(path), _unnumbered(path[:-1])} & intended:
             problems.append(_missing(text, path, tables))
         elif item["type"] not in _HANDLED and _is_written(text.data, path):
-            problems.append(Problem.at_value(text, path, _words(item, path)))
+            problems.append(Problem.at_value(text, path, _words(item, path, tables)))
     return problems
 
 
@@ -64,13 +64,13 @@ _HANDLED = ("missing", "extra_forbidden", "default_factory_not_called")
 
 def meant(path: KeyPath, tables: Tables) -> KeyPath | None:
     """The key that an unknown one most likely means: the same word elsewhere, else a near one here, else elsewhere."""
-    table, word = path[:-1], str(path[-1])
-    same = (other for other, model in tables.items() if word in model.model_fields)
+    table, word = _unnumbered(path[:-1]), str(path[-1])
+    same = (other for other, model in tables.items() if word in _keys(model))
     elsewhere = next(same, None)
     if elsewhere is not None:
         return (*elsewhere, word)
     for candidate in (table, *tables):
-        near = nearest(word, tables[candidate].model_fields) if candidate in tables else None
+        near = nearest(word, _keys(tables[candidate])) if candidate in tables else None
         if near:
             return (*candidate, near)
     return None
@@ -84,10 +84,10 @@ def _unknown(text: TomlFile, path: KeyPath, place: KeyPath | None, tables: Table
 
 def _way_out(path: KeyPath, place: KeyPath | None, tables: Tables) -> str:
     if place is None:
-        return f"known here: {', '.join(tables[path[:-1]].model_fields)}"
+        return f"known here: {', '.join(_keys(tables[_unnumbered(path[:-1])]))}"
     if place in tables:
         return f"did you mean [{spelled_path(place)}]?"
-    if place[:-1] == path[:-1]:
+    if place[:-1] == _unnumbered(path[:-1]):
         return f"did you mean {place[-1]}?"
     return f"{place[-1]} belongs {_where(place[:-1])}"
 
@@ -98,10 +98,14 @@ def _where(table: KeyPath) -> str:
 
 def _missing(text: TomlFile, path: KeyPath, tables: Tables) -> Problem:
     owner = f"[{spelled_path(path[:-1])}]" if path[:-1] else "the job"
-    if path in tables:
+    if path in tables and _is_list(path, tables):
+        keys = " and ".join(_keys(tables[path]))
+        words = f"{owner} lacks [[{spelled_path(path)}]]; write one or more, and {keys} below each"
+    elif path in tables:
         words = f"{owner} lacks the table [{spelled_path(path)}]; `plcgen new {path[-1]}` writes an example"
     else:
-        example = json.dumps(_example(tables[path[:-1]].model_fields[str(path[-1])], text.data.get("length_unit")))
+        field = _field(tables[_unnumbered(path[:-1])], str(path[-1]))
+        example = json.dumps(_example(field, text.data.get("length_unit")))
         words = f"{owner} lacks {path[-1]}; add a line such as {path[-1]} = {example}"
     return Problem(text.key_location(path), words, is_absence=True)
 
@@ -112,20 +116,45 @@ def _example(field: FieldInfo, length_unit: Any) -> Any:
     return example * rules[0].scale(length_unit) if rules and length_unit in (*UNITS_PER_METRE,) else example
 
 
-def _words(item: ErrorDetails, path: KeyPath) -> str:
+def _words(item: ErrorDetails, path: KeyPath, tables: Tables) -> str:
     if item["type"] == "job":
         return item["msg"]
+    place = _unnumbered(path)
+    if place in tables and _is_list(place, tables):
+        keys = " and ".join(_keys(tables[place]))
+        return f"is {kind_of(item['input'])}; write [[{spelled_path(place)}]] for each, and {keys} below"
     if item["type"] == "tuple_type":
-        return f'is {kind_of(item["input"])}; write a list, such as ["s7-300-scl"]'
+        example = (_field(tables[place[:-1]], str(place[-1])).examples or [[]])[0]
+        return f"is {kind_of(item['input'])}; write a list, such as {json.dumps(example[:1])}"
     return f"is {kind_of(item['input'])}; write a table, [{spelled_path(path)}] and its keys below"
 
 
 def _tables(model: type[BaseModel], above: KeyPath) -> Iterator[tuple[KeyPath, type[BaseModel]]]:
+    """Every table by its path; a list of tables as if it were one."""
     yield above, model
     for key, field in model.model_fields.items():
-        kind = field.annotation
-        if isinstance(kind, type) and issubclass(kind, BaseModel):
-            yield from _tables(kind, (*above, key))
+        for kind in (field.annotation, *get_args(field.annotation)):
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                yield from _tables(kind, (*above, field.alias or key))
+
+
+def _unnumbered(path: KeyPath) -> KeyPath:
+    """The path of a table in a list without its number."""
+    return tuple(part for part in path if isinstance(part, str))
+
+
+def _is_list(place: KeyPath, tables: Tables) -> bool:
+    """Whether a table may be there many times."""
+    return bool(place) and get_origin(_field(tables[place[:-1]], str(place[-1])).annotation) is tuple
+
+
+def _keys(table: type[BaseModel]) -> list[str]:
+    """The keys of a table as a file spells them."""
+    return [field.alias or name for name, field in table.model_fields.items()]
+
+
+def _field(table: type[BaseModel], key: str) -> FieldInfo:
+    return next(field for name, field in table.model_fields.items() if key in (name, field.alias))
 
 
 def _is_written(data: Any, path: Iterable[str | int]) -> bool:

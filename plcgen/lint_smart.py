@@ -23,16 +23,34 @@ def smart_findings(sources: Sequence[SourceText]) -> list[Finding]:
             files.append((source, parse(source)))
         except SourceError as error:
             found.append(_finding(error, source, "syntax"))
-    program = [block for _, blocks in files for block in blocks]
-    if not program:
+    programs = [_program(blocks, [other for _, other in files]) for _, blocks in files]
+    if not any(programs):
         return found
     try:
-        imports = [finding for source, blocks in files for finding in import_findings(source, blocks, program)]
+        imports = [
+            finding
+            for (source, blocks), program in zip(files, programs, strict=True)
+            for finding in import_findings(source, blocks, program)
+        ]
     except SourceError as error:  # two blocks of one number: which one is meant cannot be told
         return [*found, _finding(error, files[0][0], "types")]
     told = {(finding.location.file, finding.location.line) for finding in imports if finding.severity == "error"}
-    errors = _type_errors(program, files[0][0]) if len(files) == len(sources) else iter(())
+    # A joined file and its parts are the same program twice.
+    different = {frozenset(map(_text, program)): program for program in programs if len(files) == len(sources)}
+    errors = [error for program in different.values() for error in _type_errors(program, files[0][0])]
     return [*found, *imports, *(error for error in errors if (error.location.file, error.location.line) not in told)]
+
+
+def _program(blocks: tuple[Block, ...], files: Sequence[tuple[Block, ...]]) -> list[Block]:
+    """What a file is read with: all files but those that it joins, and those that join it with others."""
+    own = set(map(_text, blocks))
+    others = [set(map(_text, other)) for other in files]
+    read = [other for other, texts in zip(files, others, strict=True) if not (texts < own or texts > own)]
+    return [block for other in read for block in other]
+
+
+def _text(block: Block) -> str:
+    return block.source.text[block.extent.start : block.extent.end].rstrip()
 
 
 def _type_errors(program: Sequence[Block], source: SourceText) -> Iterator[Finding]:

@@ -67,13 +67,17 @@ class Plan(ABC):
     def golden_trace(self, target: str, files: Files) -> Trajectory:
         """What sources do on the nominal motion."""
 
+    def finished(self, _file: OutputFile, text: str) -> str:
+        """A rendered text as it goes to disk."""
+        return text
+
     def sources(self, target: str, verified: bool = True) -> dict[str, bytes]:
         """Files of a target by name, encoded as its engineering tool reads them."""
         row = TARGETS[target]
         context = self.context(target, verified)
         files = {}
         for file in self.outputs(target):
-            text = render(f"{row.folder}/{self.job.method}/{file.template}", context)
+            text = self.finished(file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
             encoding = "utf-8" if file.name.endswith(".md") else row.encoding
             files[file.name] = text.replace("\n", row.newline).encode(encoding)
         return files

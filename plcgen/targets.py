@@ -48,29 +48,28 @@ TARGETS = {
             max_identifier=128,
             methods=frozenset({"hoist"}),
         ),
+        Target(
+            name="s7-200-smart",
+            title="STEP 7-Micro/WIN SMART, STL (.awl) for S7-200 SMART",
+            folder="s7-200-smart",
+            dialect="smart",
+            suffix=".awl",
+            encoding="ascii",
+            newline="\r\n",
+            max_identifier=23,
+            methods=frozenset({"two-axis"}),
+        ),
     )
 }
 
-SMART = Target(
-    name="s7-200-smart",
-    title="STEP 7-Micro/WIN SMART, STL (.awl) for S7-200 SMART",
-    folder="s7-200-smart",
-    dialect="smart",
-    suffix=".awl",
-    encoding="ascii",
-    newline="\r\n",
-    max_identifier=23,
-    methods=frozenset(),
-)
-"""Without a method yet: `lint` knows it, a job cannot name it."""
-LINTED = {**TARGETS, SMART.name: SMART}
+SMART = TARGETS["s7-200-smart"]
 
 
-def target(name: str, known: dict[str, Target] = TARGETS) -> Target:
+def target(name: str) -> Target:
     """The row of that name. Raises PlcgenError with the nearest known name."""
-    if name in known:
-        return known[name]
-    raise PlcgenError(f'unknown target "{name}"; write {one_of(choices_near(name, known))}')
+    if name in TARGETS:
+        return TARGETS[name]
+    raise PlcgenError(f'unknown target "{name}"; write {one_of(choices_near(name, TARGETS))}')
 
 
 def choices_near(word: str, known: dict[str, Target]) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 from plcgen import pipeline
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.cli import main
+from plcgen.job import read_job
 
 ROOT = Path(__file__).parents[1]
 MAIN_SHAFT = ROOT / "golden" / "main-shaft"
@@ -62,6 +63,8 @@ def test_every_command_shows_an_example(command: str) -> None:
         (["verfy", JOB], 'unknown command "verfy"; write "verify"'),
         (["xyzzy"], 'unknown command "xyzzy"; there is new, schema, derive'),
         (["new", "host"], 'unknown method "host"; write "hoist"'),
+        (["new", "two_axis"], 'unknown method "two_axis"; write "two-axis"'),
+        (["new", "planetary"], 'unknown method "planetary"; write "hoist" or "two-axis"'),
         (["derive", "absent.toml"], "absent.toml"),
         (["verify", JOB, "--target", "tia"], 'unknown target "tia"; write "tia-scl"'),
         (["run", "absent.scl", "--block", "FB1", "--scans", "0", "--period", "10ms"], "--scans"),
@@ -86,6 +89,24 @@ def test_new_writes_a_job_that_verifies_as_it_stands(tmp_path: Path) -> None:
     again = plcgen("new", "hoist", "-o", str(job))
     assert again.exit_code == 2
     assert again.output == f"error: {job}: exists already; name another file with -o\n"
+
+
+def test_new_writes_a_two_axis_job_that_derives(tmp_path: Path) -> None:
+    job = tmp_path / "table.toml"
+    assert plcgen("new", "two-axis", "-o", str(job)).output == f"wrote {job}\n"
+    assert read_job(job).method == "two-axis"
+    result = plcgen("derive", str(job), "--json")
+    assert result.exit_code == 0
+    derived = json.loads(result.output)
+    assert (derived["method"], derived["length_unit"]) == ("two-axis", "cm")
+    legs = {leg["name"]: (round(leg["duration"], 6), round(leg["travel"], 6)) for leg in derived["legs"]}
+    # 4 cbrt(1.5/2/jerk) = 3.634 s and 2 (1.3028 + 1) = 4.606 s, in whole samples of 0.05 s.
+    assert legs == {"move 1 (90000, 60000)": (3.65, 1.5), "move 2 (-180000, 150000)": (4.65, 3.0)}
+    constants = {row["name"]: row["value"] for table in derived["tables"] for row in table["constants"]}
+    # t1 = a/jerk, t2 = v/a - a/jerk; full speed from v (v/a + a/jerk) on, full acceleration from 2 a^3/jerk^2 on.
+    assert (constants["T1"], constants["T2"]) == pytest.approx((1.0, 0.5))
+    assert (constants["S_FULL"], constants["S_JERK"]) == pytest.approx((3.75, 2.0))
+    assert "Trip of Table" in plcgen("derive", str(job)).output
 
 
 def test_derive_shows_the_phases_of_the_main_shaft() -> None:
@@ -121,6 +142,7 @@ def test_wrong_job_points_at_its_place(tmp_path: Path) -> None:
 def test_schema_is_json_schema() -> None:
     schema = json.loads(plcgen("schema").output)
     assert "hoist" in json.dumps(schema)
+    assert "two-axis" in json.dumps(schema)
     assert "max_velocity" in json.dumps(schema)
 
 

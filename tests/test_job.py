@@ -16,6 +16,7 @@ from plcgen.errors import JobError
 from plcgen.job import Job, job_schema, parse_job, read_job
 from plcgen.jobfile import METHODS, JobFile
 
+TWO_AXIS_EXAMPLE = Path(__file__).parents[1] / "templates" / "jobs" / "two-axis.toml"
 EXAMPLE = Path(__file__).parents[1] / "templates" / "jobs" / "hoist.toml"
 SHORT = """\
 name = "Shaft2"
@@ -49,6 +50,26 @@ def test_example_job() -> None:
     assert (job.blocks.fb_name, job.blocks.db_name) == ("MainShaft", "MainShaft_DB")
     assert (job.blocks.velocity_name, job.blocks.travel_name) == ("MainShaft_Velocity", "MainShaft_Travel")
     assert (job.blocks.velocity_fc, job.blocks.travel_fc) == (100, 101)
+
+
+def test_two_axis_example_job() -> None:
+    job = read_job(TWO_AXIS_EXAMPLE)
+    keys = job.two_axis
+    assert (job.name, job.method, job.targets) == ("Table", "two-axis", ("s7-200-smart",))
+    assert (job.length_unit, job.sample_period, job.file) == ("cm", 0.050, "two-axis.toml")
+    assert (keys.max_velocity, keys.max_acceleration, keys.jerk) == (1.5, 1.0, 1.0)
+    assert (keys.pulses_per_unit, keys.ignore_below) == ((60000.0, 60000.0), 1000)
+    assert [(move.x, move.y) for move in keys.moves] == [(1.5, 1.0), (-3.0, 2.5)]
+    shown = TWO_AXIS_EXAMPLE.read_text(encoding="utf-8")
+    assert all(f"{key} = " in shown for key in type(keys).model_fields if key != "moves")
+
+
+def test_two_axis_example_shows_the_defaults() -> None:
+    lines = TWO_AXIS_EXAMPLE.read_text(encoding="utf-8").splitlines()
+    optional = [line for line in lines if "# optional: " in line]
+    bare = parse_job("\n".join(line for line in lines if line not in optional), "bare.toml")
+    assert len(optional) == 7
+    assert bare.two_axis == read_job(TWO_AXIS_EXAMPLE).two_axis
 
 
 def test_example_shows_every_key_and_the_defaults() -> None:
@@ -217,19 +238,34 @@ def test_method_that_a_target_does_not_serve(monkeypatch: pytest.MonkeyPatch) ->
     from plcgen.targets import TARGETS
 
     monkeypatch.setitem(TARGETS, "tia-scl", replace(TARGETS["tia-scl"], methods=frozenset()))
-    assert refused(SHORT).startswith('job.toml:3:12: targets[0] = "tia-scl" does not serve the method "hoist"')
+    message = 'job.toml:3:12: targets[0] = "tia-scl" does not serve the method "hoist"; write "s7-300-scl"'
+    assert refused(SHORT).split("\n")[0] == message
 
 
 def test_methods_of_the_schema_and_of_the_reader_are_the_same() -> None:
     schema = job_schema()
-    assert schema["properties"]["method"]["enum"] == list(METHODS)
-    assert all(issubclass(model, JobFile) for model in METHODS.values())
+    assert schema["anyOf"] == [{"$ref": f"#/$defs/{model.__name__}"} for model in METHODS.values()]
+    for method, model in METHODS.items():
+        keys = schema["$defs"][model.__name__]["properties"]
+        assert issubclass(model, JobFile)
+        assert keys["method"]["enum"] == list(METHODS)
+        assert keys["method"]["examples"] == [method]
+        assert method in keys
 
 
 def test_schema_describes_every_key() -> None:
     schema = job_schema()
-    tables = [schema, *schema["$defs"].values()]
-    assert {table["title"] for table in tables} == {"plcgen job", "HoistLimits", "Envelope", "Blocks"}
+    tables = schema["$defs"].values()
+    assert schema["title"] == "plcgen job"
+    assert {table["title"] for table in tables} == {
+        "HoistFile",
+        "HoistLimits",
+        "Envelope",
+        "Blocks",
+        "TwoAxisFile",
+        "TwoAxisLimits",
+        "Move",
+    }
     assert all(table["additionalProperties"] is False for table in tables)
     assert all(key["description"] for table in tables for key in table["properties"].values())
     jerk = schema["$defs"]["HoistLimits"]["properties"]["jerk"]
@@ -244,6 +280,18 @@ def test_schema_describes_every_key() -> None:
         "creep_in",
     ]
     assert schema["$defs"]["Envelope"]["properties"]["end_velocity"]["default"] == 2.0
+    assert schema["$defs"]["TwoAxisFile"]["properties"]["sample_period"]["maximum"] == 0.255
+    assert schema["$defs"]["TwoAxisLimits"]["required"] == [
+        "max_velocity",
+        "max_acceleration",
+        "jerk",
+        "pulses_per_unit",
+        "moves",
+    ]
+    outputs = schema["$defs"]["TwoAxisLimits"]["properties"]["outputs"]
+    assert outputs["items"] == {"enum": ["Q0.0", "Q0.1", "Q0.3"]}
+    assert list(outputs["default"]) == ["Q0.0", "Q0.1"]
+    assert schema["$defs"]["Move"]["required"] == ["x", "y"]
 
 
 def test_pointing_at_places_costs_nothing_before_it_is_used() -> None:
@@ -260,9 +308,22 @@ def outcome(text: str) -> Job | JobError:
         return error
 
 
+def check_two_axis_job(job: Job) -> None:
+    keys = job.two_axis
+    lengths = [length for move in keys.moves for length in (move.x, move.y)]
+    positive = (keys.max_velocity, keys.max_acceleration, keys.jerk, *keys.pulses_per_unit, job.sample_period)
+    assert keys.moves
+    assert all(isinstance(number, float) and math.isfinite(number) for number in (*lengths, *positive))
+    assert all(number > 0 for number in positive)
+    assert len({*keys.outputs, *keys.direction_outputs}) == 4
+
+
 def check_job(job: Job | JobError) -> None:
     """What every job that gets through must promise."""
     if isinstance(job, JobError):
+        return
+    if job.method == "two-axis":
+        check_two_axis_job(job)
         return
     names = (job.blocks.fb_name, job.blocks.db_name, job.blocks.velocity_name, job.blocks.travel_name)
     assert all(name.isascii() and name.replace("_", "").isalnum() for name in (job.name, *names))
@@ -272,7 +333,16 @@ def check_job(job: Job | JobError) -> None:
 
 
 WORDS = ("nan", "-inf", "0", "-1", "1e999", "true", "2024-01-01", "*)", "fb_name", "hoist.", "travel", '"""', "'''")
-HEADERS = ("[hoist]", "[[hoist]]", "[hoist.envelope]", "[blocks]", "\n[a.b]\n", "x = 1\n")
+HEADERS = (
+    "[two-axis]",
+    "[[two-axis.moves]]",
+    "[hoist]",
+    "[[hoist]]",
+    "[hoist.envelope]",
+    "[blocks]",
+    "\n[a.b]\n",
+    "x = 1\n",
+)
 PIECES = st.sampled_from([*WORDS, *HEADERS, *"\"'[]{}=.,#_-\\\n\r\t \ufeff主é\0"])
 
 
@@ -283,7 +353,7 @@ def test_any_text_gives_a_job_or_an_error(text: str) -> None:
 
 
 @settings(max_examples=300, deadline=None)
-@given(st.sampled_from([SHORT, EXAMPLE.read_text(encoding="utf-8")]), st.data())
+@given(st.sampled_from([SHORT, *(path.read_text(encoding="utf-8") for path in (EXAMPLE, TWO_AXIS_EXAMPLE))]), st.data())
 def test_any_mutation_of_a_job_gives_a_job_or_an_error(text: str, data: st.DataObject) -> None:
     for _ in range(data.draw(st.integers(1, 3))):
         start = data.draw(st.integers(0, len(text)))

@@ -128,9 +128,9 @@ CASES = [
     ),
     ('method = "hoist"', "", '1:1: the job lacks method; add a line such as method = "hoist"'),
     ('"hoist"', '"hoits"', '2:10: method = "hoits" is unknown; write "hoist"'),
-    ('"hoist"', '"planetary"', '2:10: method = "planetary" is unknown; write "hoist"'),
-    ('"hoist"', '["hoist"]', '2:10: method = ["hoist"] is a list; write "hoist"'),
-    ('"hoist"', "true", '2:10: method = true is a boolean; write "hoist"'),
+    ('"hoist"', '"planetary"', '2:10: method = "planetary" is unknown; write "hoist" or "two-axis"'),
+    ('"hoist"', '["hoist"]', '2:10: method = ["hoist"] is a list; write "hoist" or "two-axis"'),
+    ('"hoist"', "true", '2:10: method = true is a boolean; write "hoist" or "two-axis"'),
     (
         '["s7-300-scl", "tia-scl"]',
         '"tia-scl"',
@@ -146,12 +146,22 @@ CASES = [
     (
         '["s7-300-scl", "tia-scl"]',
         '["codesys"]',
-        '3:12: targets[0] = "codesys" is unknown; write "s7-300-scl" or "tia-scl"',
+        '3:12: targets[0] = "codesys" is unknown; write "s7-300-scl", "tia-scl" or "s7-200-smart"',
     ),
     (
         '["s7-300-scl", "tia-scl"]',
         '["tia-scl", 7]',
-        '3:23: targets[1] = 7 is an integer; write "s7-300-scl" or "tia-scl"',
+        '3:23: targets[1] = 7 is an integer; write "s7-300-scl", "tia-scl" or "s7-200-smart"',
+    ),
+    (
+        '["s7-300-scl", "tia-scl"]',
+        '["s7-200-smart"]',
+        '3:12: targets[0] = "s7-200-smart" does not serve the method "hoist"; write "s7-300-scl" or "tia-scl"',
+    ),
+    (
+        '["s7-300-scl", "tia-scl"]',
+        '["s7-300-scl", "s7-200-smart"]',
+        '3:26: targets[1] = "s7-200-smart" does not serve the method "hoist"; remove it',
     ),
     (
         '["s7-300-scl", "tia-scl"]',

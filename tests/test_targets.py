@@ -6,6 +6,7 @@ import pytest
 
 from plcgen.errors import PlcgenError
 from plcgen.names import RESERVED_WORDS, STANDARD_BLOCKS, name_fault, nearest, one_of
+from plcgen.plc.importrules import smart_text
 from plcgen.plc.scl import dialects
 from plcgen.targets import TARGETS, target
 
@@ -15,9 +16,10 @@ def test_each_row_is_found_by_its_name() -> None:
 
 
 def test_spelling_on_disk() -> None:
-    classic, tia = target("s7-300-scl"), target("tia-scl")
+    classic, tia, smart = target("s7-300-scl"), target("tia-scl"), target("s7-200-smart")
     assert (classic.encoding, classic.newline, classic.suffix, classic.max_identifier) == ("ascii", "\r\n", ".scl", 24)
     assert (tia.encoding, tia.newline, tia.suffix, tia.max_identifier) == ("utf-8-sig", "\r\n", ".scl", 128)
+    assert (smart.encoding, smart.newline, smart.suffix, smart.max_identifier) == ("ascii", "\r\n", ".awl", 23)
 
 
 @pytest.mark.parametrize(
@@ -25,8 +27,9 @@ def test_spelling_on_disk() -> None:
     [
         ("s7-300-sc", 'unknown target "s7-300-sc"; write "s7-300-scl"'),
         ("TIA-SCL", 'unknown target "TIA-SCL"; write "tia-scl"'),
+        ("s7-200", 'unknown target "s7-200"; write "s7-200-smart"'),
         ("tia", 'unknown target "tia"; write "tia-scl"'),
-        ("codesys", 'unknown target "codesys"; write "s7-300-scl" or "tia-scl"'),
+        ("codesys", 'unknown target "codesys"; write "s7-300-scl", "tia-scl" or "s7-200-smart"'),
     ],
 )
 def test_unknown_target(name: str, message: str) -> None:
@@ -36,8 +39,9 @@ def test_unknown_target(name: str, message: str) -> None:
 
 
 def test_dialects_of_the_table_exist() -> None:
-    known = {dialect.name: dialect for dialect in (dialects.CLASSIC, dialects.TIA)}
-    assert all(known[row.dialect].identifier_length == row.max_identifier for row in TARGETS.values())
+    known = {dialect.name: dialect.identifier_length for dialect in (dialects.CLASSIC, dialects.TIA)}
+    known["smart"] = smart_text.IDENTIFIER_LENGTH
+    assert {row.dialect: row.max_identifier for row in TARGETS.values()} == known
 
 
 @pytest.mark.parametrize("word", sorted(dialects.RESERVED_WORDS | RESERVED_WORDS | STANDARD_BLOCKS))

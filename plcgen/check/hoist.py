@@ -23,7 +23,7 @@ from plcgen.check.hoist_expectation import (
 )
 from plcgen.check.hoist_model import CREEP_IN, CREEP_OUT, FULL_SPEED, STANDSTILL, STOPPING, HoistModel, Samples
 from plcgen.check.rig import PERFECT, Clock, Encoder
-from plcgen.check.verdict import Check, TargetVerdict
+from plcgen.check.verdict import Check, TargetVerdict, nearer, strain
 from plcgen.plc.core import Program
 from plcgen.trajectory import Trajectory
 
@@ -71,7 +71,7 @@ def verify_hoist(
     worst: dict[str, Check] = {}
     for checks in _situations(subject.bench, progress or (lambda _text: None)):
         for check in checks:
-            worst[check.name] = _nearer(worst[check.name], check) if check.name in worst else check
+            worst[check.name] = nearer(worst[check.name], check) if check.name in worst else check
         if fail_fast and not all(check.ok for check in worst.values()):
             break
     return TargetVerdict(tuple(worst.values()))
@@ -94,19 +94,6 @@ def _situations(bench: Bench, progress: Callable[[str], None]) -> Iterator[Itera
         yield [check if check.ok else replace(check, detail=run.name) for check in _run_checks(bench.model, run)]
     yield (_coarse_functions(bench),)
     yield (_isolation(bench),)
-
-
-def _nearer(first: Check, second: Check) -> Check:
-    """The one of two figures of a name that comes nearer to its bound, or misses it by more."""
-    nearer = max(second, first, key=lambda check: _strain(check.value, check.bound, check.at_least))
-    return replace(nearer, detail="; ".join(check.detail for check in (first, second) if check.detail))
-
-
-def _strain(value: float, bound: float, at_least: bool = False) -> float:
-    """Above 1 when the bound is missed; NaN counts as infinite."""
-    if np.isnan(value):
-        return np.inf
-    return -value if at_least else value / max(bound, 1e-300)
 
 
 def _runs(bench: Bench) -> Iterator[Callable[[], Run]]:
@@ -180,7 +167,7 @@ def _nearest(name: str, unit: str, figures: list[tuple[float, float]]) -> Check:
     """Of pairs of value and bound, the one with the largest ratio; NaN counts as the largest."""
     if not figures:
         return Check(name, 0.0, 0.0, unit)
-    value, bound = max(figures, key=lambda pair: _strain(*pair))
+    value, bound = max(figures, key=lambda pair: strain(*pair))
     return Check(name, value, bound, unit)
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from math import isfinite
+from dataclasses import dataclass, replace
+from math import inf, isfinite, isnan
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,19 @@ class Check:
         """NaN and infinity, which JSON does not know, become null."""
         value = self.value if isfinite(self.value) else None
         return {"name": self.name, "value": value, "bound": self.bound, "unit": self.unit, "ok": self.ok}
+
+
+def nearer(first: Check, second: Check) -> Check:
+    """The one of two figures of a name that comes nearer to its bound, or misses it by more."""
+    nearer = max(second, first, key=lambda check: strain(check.value, check.bound, check.at_least))
+    return replace(nearer, detail="; ".join(check.detail for check in (first, second) if check.detail))
+
+
+def strain(value: float, bound: float, at_least: bool = False) -> float:
+    """Above 1 when the bound is missed; NaN counts as infinite."""
+    if isnan(value):
+        return inf
+    return -value if at_least else value / max(bound, 1e-300)
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
 
 from plcgen.job import HoistLimits
 from plcgen.profile.envelope import Envelope
 from plcgen.profile.reference import Phase, Reference
+from plcgen.profile.stop import stop_phases
 from plcgen.profile.transition import Transition, reached_velocity
 
 LEG_NAMES = (
@@ -182,14 +182,7 @@ def plan_trip(limits: HoistLimits, distance: float) -> Trip:
 
 
 def plan_stop(limits: HoistLimits, velocity: float, acceleration: float) -> Reference:
-    """A stop request at a speed and a signed acceleration: jerk to the peak, hold it, jerk back to rest.
-
-    The peak is the deceleration limit, or what brings speed and acceleration to zero together: a_p^2 = m v + a^2/2.
-    """
-    m = limits.jerk
-    peak = min(limits.deceleration, sqrt(m * velocity + acceleration**2 / 2))
-    t1 = max(0.0, (acceleration + peak) / m)
-    corner = velocity + (acceleration**2 - peak**2) / (2 * m)
-    t2 = max(0.0, (corner - peak**2 / (2 * m)) / peak) if peak > 0 else 0.0
-    phases = (Phase(t1, -m, STOPPING), Phase(t2, 0.0, STOPPING), Phase(peak / m, m, STOPPING))
-    return Reference(phases, velocity, acceleration)
+    """A stop request at a speed and a signed acceleration."""
+    return Reference(
+        stop_phases(velocity, acceleration, limits.deceleration, limits.jerk, STOPPING), velocity, acceleration
+    )

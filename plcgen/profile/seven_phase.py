@@ -1,4 +1,6 @@
-"""A move of one axis from rest to rest in seven phases of jerk: seed 004, equations (1)-(18), corrected and completed.
+"""A move of one axis from rest to rest in seven phases of jerk, corrected and completed.
+
+Equations (1)-(18) of "Two-dimensional synchronous interpolation and its application on the S7-200 Smart PLC".
 
 | letter | word                                   | letter | word                                      |
 |--------|----------------------------------------|--------|-------------------------------------------|

@@ -317,9 +317,20 @@ class Channel:
 
     def position_at(self, times_us: NDArray[Any]) -> NDArray[np.int64]:
         """Pulses by each time; with a direction output those sent under a 1 count backwards."""
+        before, signs, own = self._progress(times_us)
+        return before + signs * np.floor(own).astype(np.int64)
+
+    def progress_at(self, times_us: NDArray[Any]) -> NDArray[np.float64]:
+        """As `position_at`, with the part of the pulse that is under way."""
+        before, signs, own = self._progress(times_us)
+        return before + signs * own
+
+    def _progress(self, times_us: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+        """At each time: pulses of the segments before, sign of the present one, and what it has sent."""
         times = np.asarray(times_us, dtype=np.float64)
         if not self.segments:
-            return np.zeros(times.shape, dtype=np.int64)
+            none = np.zeros(times.shape, dtype=np.int64)
+            return none, none, np.zeros(times.shape)
         starts = np.array([s.start for s in self.segments])
         durations = np.array([s.duration for s in self.segments])
         first = np.array([s.first_hz for s in self.segments], dtype=np.float64)
@@ -332,8 +343,8 @@ class Channel:
         seconds = np.clip(times - starts[inside], 0.0, durations[inside]) / SECOND
         phase = seconds * (first[inside] + slope[inside] * seconds / 2)
         over = times - starts[inside] >= durations[inside]
-        own = np.where(over, sent[inside], np.minimum(np.floor(phase).astype(np.int64), sent[inside]))
-        return np.where(place < 0, 0, before[inside] + signs[inside] * own)
+        own = np.where(over, sent[inside], np.minimum(phase, sent[inside]))
+        return before[inside], signs[inside], np.where(place < 0, 0.0, own)
 
     def instants(self) -> NDArray[np.float64]:
         """When each pulse is complete, in order."""
