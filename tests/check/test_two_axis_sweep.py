@@ -126,3 +126,27 @@ x = -0.1
 y = -0.1
 """
     assert not missed(TwoAxisPlan.of(parse_job(text, "job.toml")))
+
+
+def test_boundary_that_rounding_puts_behind_the_peak() -> None:
+    """REAL takes the end of phase 3, counted in segments, for a little more than twice t1."""
+    text = """\
+name = "Table"
+method = "two-axis"
+targets = ["s7-200-smart"]
+length_unit = "cm"
+sample_period = 0.255
+
+[two-axis]
+max_velocity = 6.317193155094491
+max_acceleration = 110.6294855235601
+jerk = 4172.636355892535
+pulses_per_unit = [103.88349796691911, 156.1763643678755]
+mode = "table"
+short_moves = "fixed-jerk-time"
+
+[[two-axis.moves]]
+x = -0.07422555762361165
+y = -0.07422555762361165
+"""
+    assert not missed(TwoAxisPlan.of(parse_job(text, "job.toml")))
