@@ -20,9 +20,18 @@ from plcgen.plc.source import decode_source
 from plcgen.plc.stl.lowering import lower
 from plcgen.plc.stl.parser import parse
 from plcgen.profile.reference import Reference
-from plcgen.profile.seven_phase import Limits, time_optimal
+from plcgen.profile.seven_phase import time_optimal
 from plcgen.profile.stop import stop_phases
-from plcgen.profile.two_axis import LONGEST_TABLE, SLOWEST_TABLE, TRAIN_SHARE, TwoAxisMove, ordered, two_axis_constants
+from plcgen.profile.two_axis import (
+    LONGEST_TABLE,
+    SLOWEST_TABLE,
+    TRAIN_SHARE,
+    TwoAxisMove,
+    full_distance,
+    limits_of,
+    ordered,
+    two_axis_constants,
+)
 from plcgen.profile.two_axis_rules import derive
 from plcgen.render.files import OutputFile
 from plcgen.render.two_axis import number_networks, output_files, two_axis_context
@@ -127,8 +136,7 @@ def _impossible_in_a_table(job: Job) -> Iterator[tuple[str, tuple[int, int], int
     too_long, long = round(1.01 * LONGEST_TABLE * fastest), round(LONGEST_TABLE / 2 * fastest)
     if too_long <= LONGEST_MOVE:
         yield "a move that takes too long", (too_long, 0), 5
-    limits = Limits(keys.max_velocity, keys.max_acceleration, keys.jerk)
-    time = time_optimal(long / keys.pulses_per_unit[0], limits).duration
+    time = time_optimal(long / keys.pulses_per_unit[0], limits_of(keys)).duration
     few = max(1, keys.ignore_below)
     if few < 0.99 * SLOWEST_TABLE * time and time < LONGEST_TABLE and long <= LONGEST_MOVE:
         yield "y too slow", (-long, few), 6
@@ -138,8 +146,7 @@ def _move_model(job: Job, wanted: Move, move: TwoAxisMove) -> MoveModel:
     keys, pulses = job.two_axis, move.pulses
     ppu = keys.pulses_per_unit[0 if pulses.x_leads else 1]
 
-    full = 2 * time_optimal(1e9, Limits(keys.max_velocity, keys.max_acceleration, keys.jerk)).acceleration_travel
-    reach = move.profile.distance / full
+    reach = move.profile.distance / full_distance(limits_of(keys))
     run = Reference(list(move.fastest.phases())) if keys.mode == "table" else move.reference
 
     def motion(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

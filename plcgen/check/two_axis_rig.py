@@ -34,7 +34,6 @@ class Ride:
 
     name: str
     move: MoveModel
-    cpu: Smart
     first_tick: int
     before: tuple[int, int]
     told_early: bool
@@ -99,7 +98,7 @@ class Table:
         if self.model.is_table:
             # The tables are built first; the move begins when they are started.
             first_tick = round(min((s.start for s in self.segments(ordered)), default=first_tick))
-        return Ride(name, move, self.cpu, first_tick, before, told_early)
+        return Ride(name, move, first_tick, before, told_early)
 
     def segments(self, since: int) -> list[Segment]:
         """What both outputs have sent since a time."""
