@@ -172,6 +172,9 @@ def derive(job: Path, as_json: bool) -> None:
     terminal.show(_legs_table(read, derivation.stretches))
     for group in derivation.tables:
         terminal.show(_constants_table(group))
+    for comparison in derivation.comparisons:
+        name, *figures = comparison.headings
+        terminal.show(terminal.Table(comparison.title, (name, *(f">{f}" for f in figures)), list(comparison.rows)))
 
 
 def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
@@ -180,7 +183,15 @@ def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
         {"title": group.title, "constants": [vars(constant) for constant in group.constants]}
         for group in derivation.tables
     ]
-    return {"job": job.name, "method": job.method, "length_unit": job.length_unit, "legs": legs, "tables": tables}
+    comparisons = [
+        {
+            "title": comparison.title,
+            "rows": [dict(zip(comparison.headings, row, strict=True)) for row in comparison.rows],
+        }
+        for comparison in derivation.comparisons
+    ]
+    head = {"job": job.name, "method": job.method, "length_unit": job.length_unit}
+    return {**head, "legs": legs, "tables": tables, "comparisons": comparisons}
 
 
 def _legs_table(job: Job, legs: Iterable[Any]) -> terminal.Table:

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, TypeAdapter, ValidationInfo, model_validator
 
+from plcgen.jobfile_cosine import CosineLimits
 from plcgen.jobfile_two_axis import LONGEST_TIMED_INTERRUPT, TwoAxisLimits
 from plcgen.jobrules import UNITS_PER_METRE, Choice, NameRule, Quantity, Table, Whole, whole_milliseconds
 from plcgen.targets import TARGETS
@@ -18,7 +19,7 @@ DATA_SUFFIX = "_DB"
 Name = Annotated[str, NameRule()]
 Factor = Annotated[float, Quantity("", 1.0, 3.0)]
 Acceleration = Annotated[float, Quantity("m/s2", 0.01, 100.0)]
-Method = Annotated[str, Choice(("hoist", "two-axis"))]
+Method = Annotated[str, Choice(("hoist", "cosine", "two-axis"))]
 Targets = tuple[Annotated[str, Choice(tuple(TARGETS))], ...]
 
 
@@ -68,14 +69,11 @@ class HoistLimits(Table):
     envelope: Envelope = Field(default={}, validate_default=True, description="protection; optional")
 
 
-class Blocks(Table):
-    """Numbers and names of the blocks that are emitted."""
+class FunctionBlock(Table):
+    """Number and name of a function block and of its instance data block."""
 
     fb: Annotated[int, Whole(1, HIGHEST_CODE_BLOCK)] = Field(100, description="number of the function block")
     db: Annotated[int, Whole(1, HIGHEST_DATA_BLOCK)] = Field(100, description="number of its instance data block")
-    fc: Annotated[int, Whole(1, HIGHEST_CODE_BLOCK - 1)] = Field(
-        100, description="number of the first of two functions; the second takes the next number"
-    )
     fb_name: Name = Field(default_factory=str, description="name of the function block; default the job's name")
     db_name: Name = Field(
         default_factory=lambda given: given["fb_name"] + DATA_SUFFIX,
@@ -89,22 +87,6 @@ class Blocks(Table):
         return {"fb_name": name, **given} if name and isinstance(given, dict) else given
 
     @property
-    def velocity_fc(self) -> int:
-        return self.fc
-
-    @property
-    def travel_fc(self) -> int:
-        return self.fc + 1
-
-    @property
-    def velocity_name(self) -> str:
-        return f"{self.fb_name}_Velocity"
-
-    @property
-    def travel_name(self) -> str:
-        return f"{self.fb_name}_Travel"
-
-    @property
     def restart_name(self) -> str:
         """Of the example call in TIA, where the OB stays the user's."""
         return f"{self.fb_name}_Restart"
@@ -116,7 +98,36 @@ class Blocks(Table):
     @property
     def code_names(self) -> tuple[str, ...]:
         """Symbols of everything that is written but the instance data block."""
+        return self.fb_name, self.restart_name, self.cyclic_name
+
+    @property
+    def longest_name(self) -> str:
+        """The longest symbol that comes of fb_name in STEP 7 V5."""
+        return self.fb_name + DATA_SUFFIX
+
+
+class Blocks(FunctionBlock):
+    """Numbers and names of the blocks of a hoist."""
+
+    fc: Annotated[int, Whole(1, HIGHEST_CODE_BLOCK - 1)] = Field(
+        100, description="number of the first of two functions; the second takes the next number"
+    )
+
+    @property
+    def velocity_name(self) -> str:
+        return f"{self.fb_name}_Velocity"
+
+    @property
+    def travel_name(self) -> str:
+        return f"{self.fb_name}_Travel"
+
+    @property
+    def code_names(self) -> tuple[str, ...]:
         return self.fb_name, self.velocity_name, self.travel_name, self.restart_name, self.cyclic_name
+
+    @property
+    def longest_name(self) -> str:
+        return self.velocity_name
 
 
 class JobFile(Table):
@@ -142,6 +153,20 @@ class HoistFile(JobFile):
     blocks: Blocks = Field(default={}, validate_default=True, description="numbers and names of blocks; optional")
 
 
+class CosineFile(JobFile):
+    """A job of the method `cosine`."""
+
+    method: Method = Field(description="how the motion is planned", examples=["cosine"])
+    targets: Targets = Field(
+        description="controllers and languages to write source for",
+        examples=[["s7-300-scl", "tia-scl", "s7-200-smart"]],
+    )
+    cosine: CosineLimits = Field(description="limits of the motion, shape and moving average")
+    blocks: FunctionBlock = Field(
+        default={}, validate_default=True, description="number and name of the block; optional"
+    )
+
+
 class TwoAxisFile(JobFile):
     """A job of the method `two-axis`."""
 
@@ -153,7 +178,13 @@ class TwoAxisFile(JobFile):
     two_axis: TwoAxisLimits = Field(alias="two-axis", description="limits of the motion, outputs and memory")
 
 
-METHODS: dict[str, type[HoistFile] | type[TwoAxisFile]] = {"hoist": HoistFile, "two-axis": TwoAxisFile}
+AnyFile = HoistFile | CosineFile | TwoAxisFile
+
+METHODS: dict[str, type[HoistFile] | type[CosineFile] | type[TwoAxisFile]] = {
+    "hoist": HoistFile,
+    "cosine": CosineFile,
+    "two-axis": TwoAxisFile,
+}
 
 
 def json_schema(methods: Iterable[type[JobFile]]) -> dict[str, Any]:

@@ -7,11 +7,12 @@ from collections.abc import Callable
 from plcgen.check.verdict import TargetVerdict
 from plcgen.job import Job
 from plcgen.plan import Derivation, Files, Plan, Progress
+from plcgen.plan_cosine import cosine_plan
 from plcgen.plan_hoist import HoistPlan
 from plcgen.plan_two_axis import TwoAxisPlan
 from plcgen.trajectory import Trajectory
 
-METHODS: dict[str, Callable[[Job], Plan]] = {"hoist": HoistPlan.of, "two-axis": TwoAxisPlan.of}
+METHODS: dict[str, Callable[[Job], Plan]] = {"hoist": HoistPlan.of, "cosine": cosine_plan, "two-axis": TwoAxisPlan.of}
 
 
 def prepare(job: Job) -> Plan:

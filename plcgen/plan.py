@@ -29,11 +29,21 @@ class Stretch:
 
 
 @dataclass(frozen=True)
+class Comparison:
+    """Choices side by side: the first cell of a row is its name."""
+
+    title: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
 class Derivation:
     """What `plcgen derive` shows."""
 
     stretches: tuple[Stretch, ...]
     tables: tuple[ConstantGroup, ...]
+    comparisons: tuple[Comparison, ...] = ()
 
 
 @dataclass(frozen=True)

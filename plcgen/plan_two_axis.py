@@ -34,7 +34,8 @@ from plcgen.profile.two_axis import (
 )
 from plcgen.profile.two_axis_rules import derive
 from plcgen.render.files import OutputFile
-from plcgen.render.two_axis import number_networks, output_files, two_axis_context
+from plcgen.render.smart_source import number_networks
+from plcgen.render.two_axis import output_files, two_axis_context
 from plcgen.render.two_axis_memory import memory_map, refuse_what_does_not_fit
 from plcgen.trajectory import Trajectory
 

@@ -35,7 +35,7 @@ TARGETS = {
             encoding="ascii",
             newline="\r\n",
             max_identifier=24,
-            methods=frozenset({"hoist"}),
+            methods=frozenset({"hoist", "cosine"}),
         ),
         Target(
             name="tia-scl",
@@ -46,7 +46,7 @@ TARGETS = {
             encoding="utf-8-sig",
             newline="\r\n",
             max_identifier=128,
-            methods=frozenset({"hoist"}),
+            methods=frozenset({"hoist", "cosine"}),
         ),
         Target(
             name="s7-200-smart",
@@ -57,7 +57,7 @@ TARGETS = {
             encoding="ascii",
             newline="\r\n",
             max_identifier=23,
-            methods=frozenset({"two-axis"}),
+            methods=frozenset({"cosine", "two-axis"}),
         ),
     )
 }

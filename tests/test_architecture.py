@@ -16,7 +16,18 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 
 # Who may lean on whom. The version may be read by anyone. A module without a row belongs to the command line: it sees
 # all, and since it stands in no row, nothing of these sees it.
-JOB = {"job", "jobfile", "jobfile_two_axis", "jobproblems", "jobrules", "tomlfile", "names", "targets"}
+JOB = {
+    "job",
+    "jobconflicts",
+    "jobfile",
+    "jobfile_cosine",
+    "jobfile_two_axis",
+    "jobproblems",
+    "jobrules",
+    "tomlfile",
+    "names",
+    "targets",
+}
 MAY_IMPORT = {
     "errors": set[str](),
     "trajectory": set[str](),

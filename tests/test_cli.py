@@ -64,7 +64,7 @@ def test_every_command_shows_an_example(command: str) -> None:
         (["xyzzy"], 'unknown command "xyzzy"; there is new, schema, derive'),
         (["new", "host"], 'unknown method "host"; write "hoist"'),
         (["new", "two_axis"], 'unknown method "two_axis"; write "two-axis"'),
-        (["new", "planetary"], 'unknown method "planetary"; write "hoist" or "two-axis"'),
+        (["new", "planetary"], 'unknown method "planetary"; write "hoist", "cosine" or "two-axis"'),
         (["derive", "absent.toml"], "absent.toml"),
         (["verify", JOB, "--target", "tia"], 'unknown target "tia"; write "tia-scl"'),
         (["run", "absent.scl", "--block", "FB1", "--scans", "0", "--period", "10ms"], "--scans"),

@@ -49,7 +49,7 @@ def test_example_job() -> None:
     assert (hoist.acceleration, hoist.deceleration, hoist.creep_acceleration) == (0.75, 0.75, 0.3)
     assert (job.blocks.fb_name, job.blocks.db_name) == ("MainShaft", "MainShaft_DB")
     assert (job.blocks.velocity_name, job.blocks.travel_name) == ("MainShaft_Velocity", "MainShaft_Travel")
-    assert (job.blocks.velocity_fc, job.blocks.travel_fc) == (100, 101)
+    assert job.blocks.fc == 100
 
 
 def test_two_axis_example_job() -> None:
@@ -262,6 +262,10 @@ def test_schema_describes_every_key() -> None:
         "HoistLimits",
         "Envelope",
         "Blocks",
+        "CosineFile",
+        "CosineLimits",
+        "CosineMove",
+        "FunctionBlock",
         "TwoAxisFile",
         "TwoAxisLimits",
         "Move",

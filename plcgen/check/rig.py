@@ -1,9 +1,9 @@
-"""The rig: binds a function block to a plant, drives it scan by scan, and records everything it reads and writes."""
+"""The rig: drives a function block scan by scan, alone or bound to a plant, and records what it reads and writes."""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from math import floor
@@ -63,36 +63,19 @@ class Snapshot:
     scans: int
 
 
-class Rig:
-    """One instance of a block with its plant. Inputs keep their value until they are set again."""
-
-    SETPOINT, TRAVEL, VELOCITY = "limitedSetpoint", "actualTravel", "actualVelocity"
+class Instance:
+    """An FB on its instance DB, called scan by scan. Inputs keep their value until they are set again."""
 
     def __init__(
-        self,
-        program: Program,
-        block: str,
-        instance: str,
-        travel: float,
-        clock: Clock,
-        encoder: Encoder = PERFECT,
-        temp_fill: int = 0,
-        function_error: float = 0.0,
+        self, program: Program, block: str, instance: str, temp_fill: int = 0, function_error: float = 0.0
     ) -> None:
         self.machine = Machine(program, temp_fill, function_error=function_error)
         self.block, self.instance = block, instance
-        self.clock, self.encoder = clock, encoder
-        self.plant = Plant(travel)
         self.scans = 0
-        self.forced: dict[str, float] = {}
-        self._random = Random(clock.seed)
         self._variables: dict[str, Variable] = {}
         self._memory = self.machine.memory[instance]
-        self._records: list[tuple[float, float, bytes]] = []
+        self._images: list[bytes] = []
         self._call = self.machine.call
-        self._travel, self._velocity, self._setpoint = (
-            self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
-        )
 
     def variable(self, name: str) -> Variable:
         """A variable of the instance, looked up once."""
@@ -109,6 +92,51 @@ class Rig:
         """An output of the block after the last scan."""
         return float(self.variable(name).get())
 
+    def scan(self) -> None:
+        """One call of the cyclic interrupt."""
+        self.machine.scan = self.scans
+        self._call(self.block, self.instance)
+        self._images.append(bytes(self._memory))
+        self.scans += 1
+
+    @property
+    def faults(self) -> Sequence[object]:
+        """Arithmetic events so far."""
+        return self.machine.faults
+
+    def trace(self) -> Trajectory:
+        """Every elementary variable of the interface after each scan."""
+        structure = self.machine.program.functions[self.block].instance
+        assert structure is not None
+        return Trajectory(_decode(b"".join(self._images), len(self._images), structure))
+
+
+class Rig(Instance):
+    """An instance with its plant."""
+
+    SETPOINT, TRAVEL, VELOCITY = "limitedSetpoint", "actualTravel", "actualVelocity"
+
+    def __init__(
+        self,
+        program: Program,
+        block: str,
+        instance: str,
+        travel: float,
+        clock: Clock,
+        encoder: Encoder = PERFECT,
+        temp_fill: int = 0,
+        function_error: float = 0.0,
+    ) -> None:
+        super().__init__(program, block, instance, temp_fill, function_error)
+        self.clock, self.encoder = clock, encoder
+        self.plant = Plant(travel)
+        self.forced: dict[str, float] = {}
+        self._random = Random(clock.seed)
+        self._places: list[tuple[float, float]] = []
+        self._travel, self._velocity, self._setpoint = (
+            self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
+        )
+
     def force(self, **measurements: float) -> None:
         """Replace what encoder or drive report until `release`."""
         self.forced.update(measurements)
@@ -122,11 +150,9 @@ class Rig:
         self.plant.move_to((self.scans + jitter) * self.clock.period)
         self._travel.set(self.forced.get(self.TRAVEL, self._measured()))
         self._velocity.set(self.forced.get(self.VELOCITY, self.plant.velocity))
-        self.machine.scan = self.scans
-        self._call(self.block, self.instance)
+        super().scan()
         self.plant.velocity = self._setpoint.get()
-        self._records.append((self.plant.time, self.plant.travel, bytes(self._memory)))
-        self.scans += 1
+        self._places.append((self.plant.time, self.plant.travel))
 
     def _measured(self) -> float:
         reading = self.encoder.read(self.plant.travel)
@@ -153,15 +179,13 @@ class Rig:
         self.plant = deepcopy(moment.plant)
         self.scans = moment.scans
         self.release()
-        self._records.clear()
+        self._images.clear()
+        self._places.clear()
 
     def trace(self) -> Trajectory:
         """Everything recorded: time, plant travel, and every elementary variable of the interface."""
-        structure = self.machine.program.functions[self.block].instance
-        assert structure is not None
-        times, travels, images = zip(*self._records, strict=True)
-        columns = {"time": np.array(times), "plantTravel": np.array(travels)}
-        return Trajectory(columns | _decode(b"".join(images), len(images), structure))
+        times, travels = zip(*self._places, strict=True)
+        return Trajectory({"time": np.array(times), "plantTravel": np.array(travels), **super().trace().columns})
 
 
 def _decode(data: bytes, rows: int, structure: Structure) -> dict[str, np.ndarray]:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from plcgen import __version__
 from plcgen.job import Job
-from plcgen.profile.constants import Constant, ConstantGroup
 from plcgen.profile.hoist import Trip
 from plcgen.profile.hoist_constants import hoist_constants
 from plcgen.render.files import OutputFile
-
-# STEP 7 takes two numbers of 0..15; it is the version of the blocks, not of plcgen.
-BLOCK_VERSION = "0.1"
+from plcgen.render.scl_source import SymbolLine, address, constant_lines, source_context
 
 
 @dataclass(frozen=True)
@@ -26,25 +21,6 @@ class BlockNames:
     travel_fc: str
     restart_fc: str
     cyclic_fc: str
-
-
-@dataclass(frozen=True)
-class ConstantLine:
-    """One constant of a source with the text behind it."""
-
-    name: str
-    value: float
-    note: str
-
-
-@dataclass(frozen=True)
-class SymbolLine:
-    """One row of a STEP 7 symbol table."""
-
-    name: str
-    address: str
-    type: str
-    comment: str
 
 
 def output_files(job: Job, target: str) -> tuple[OutputFile, ...]:
@@ -75,45 +51,22 @@ def hoist_context(job: Job, trip: Trip, target: str, verified: bool) -> dict[str
     names = block_names(job, target)
     return {
         **vars(names),
-        "name": job.name,
-        "version": __version__,
-        "block_version": BLOCK_VERSION,
-        "job_file": job.file,
-        "job_sha256": job.sha256,
-        "unverified": not verified,
-        "unit": job.length_unit,
+        **source_context(job, verified),
         "travel": job.hoist.travel,
-        "sample_period": job.sample_period,
-        "period_ms": f"{job.sample_period * 1000:g}",
-        "constant_groups": [_lines(group) for group in hoist_constants(job, trip)],
+        "constant_groups": constant_lines(hoist_constants(job, trip)),
         "symbols": _symbols(job),
         "files": output_files(job, target),
-        "source_stem": job.name,
         "blocks_in_order": ", ".join((names.velocity_fc, names.travel_fc, names.fb, names.db)),
     }
 
 
-def _lines(group: ConstantGroup) -> Mapping[str, object]:
-    return {"title": group.title, "constants": [ConstantLine(c.name, c.value, _note(c)) for c in group.constants]}
-
-
-def _note(constant: Constant) -> str:
-    origin = f" {constant.origin}" if constant.origin else ""
-    return f"{constant.unit}, {constant.comment}{origin}"
-
-
 def _symbols(job: Job) -> tuple[SymbolLine, ...]:
     blocks = job.blocks
-    fb = _address("FB", blocks.fb)
+    fb = address("FB", blocks.fb)
     rows = (
         (blocks.fb_name, fb, fb, "speed of the hoist as a function of travel"),
-        (blocks.db_name, _address("DB", blocks.db), fb, "instance data of the hoist"),
-        (blocks.velocity_name, *[_address("FC", blocks.fc)] * 2, "velocity of a transition"),
-        (blocks.travel_name, *[_address("FC", blocks.fc + 1)] * 2, "travel of a transition"),
+        (blocks.db_name, address("DB", blocks.db), fb, "instance data of the hoist"),
+        (blocks.velocity_name, *[address("FC", blocks.fc)] * 2, "velocity of a transition"),
+        (blocks.travel_name, *[address("FC", blocks.fc + 1)] * 2, "travel of a transition"),
     )
     return tuple(SymbolLine(*row) for row in rows)
-
-
-def _address(kind: str, number: int) -> str:
-    """`FB    100`: the kind to the left, the number to the right of nine columns."""
-    return f"{kind}{number:>7}"

@@ -9,16 +9,8 @@ from plcgen import __version__
 from plcgen.job import Job
 from plcgen.profile.two_axis import LONGEST_TABLE, SLOWEST_TABLE, TRAIN_SHARE, two_axis_constants
 from plcgen.render.files import OutputFile
-from plcgen.render.two_axis_memory import (
-    FINEST,
-    LEAST_JERK,
-    SHARE,
-    SHORTEST,
-    STEPS,
-    end_of_memory,
-    memory_map,
-    symbols,
-)
+from plcgen.render.smart_source import Addresses, ParameterLine, Routine, calls, heads, parameter_lines
+from plcgen.render.two_axis_memory import FINEST, LEAST_JERK, SHARE, SHORTEST, STEPS, layout, memory_map
 
 BLOCK_VERSION = "0.1"
 
@@ -52,19 +44,6 @@ PORTS = {
     "Q0.1": (1, 76, 77, 178),
     "Q0.3": (2, 566, 567, 578),
 }
-
-
-@dataclass(frozen=True)
-class Addresses:
-    """Attribute access for templates: `{{ v.gamma }}`."""
-
-    by_name: dict[str, str]
-
-    def __getattr__(self, name: str) -> str:
-        try:
-            return self.by_name[name]
-        except KeyError:
-            raise AttributeError(name) from None
 
 
 @dataclass(frozen=True)
@@ -113,14 +92,6 @@ def _port(job: Job, axis: str, table: int) -> Port:
     )
 
 
-@dataclass(frozen=True)
-class Routine:
-    """A block: its name in the file and its number."""
-
-    name: str
-    purpose: str
-
-
 def routines(job: Job) -> dict[str, Routine]:
     keys = job.two_axis
     found = {
@@ -128,28 +99,6 @@ def routines(job: Job) -> dict[str, Routine]:
         for number, (key, suffix, purpose) in enumerate(ROUTINES[keys.mode])
     }
     return found | {"tick": Routine(f"{job.name}_Tick:INT{keys.interrupt_routine}", "one sample")}
-
-
-@dataclass(frozen=True)
-class Routines:
-    """`{{ block.start }}` names a block in its head, `{{ call.start }}` in a CALL."""
-
-    by_name: dict[str, str]
-
-    def __getattr__(self, name: str) -> str:
-        try:
-            return self.by_name[name]
-        except KeyError:
-            raise AttributeError(name) from None
-
-
-@dataclass(frozen=True)
-class ParameterLine:
-    """One constant that Init loads."""
-
-    value: float
-    address: str
-    note: str
 
 
 _LOADED = {
@@ -177,12 +126,7 @@ TABLE_CONSTANTS = (
 
 
 def _parameters(job: Job, addresses: dict[str, str]) -> Iterator[ParameterLine]:
-    for group in two_axis_constants(job):
-        for constant in group.constants:
-            if constant.name in _LOADED:
-                origin = f" {constant.origin}" if constant.origin else ""
-                note = f"{constant.name}: {constant.unit}, {constant.comment}{origin}"
-                yield ParameterLine(constant.value, addresses[_LOADED[constant.name]], note)
+    yield from parameter_lines(two_axis_constants(job), _LOADED, addresses)
     if job.two_axis.mode == "table":
         yield from (ParameterLine(value, addresses[name], note) for value, name, note in TABLE_CONSTANTS)
 
@@ -220,19 +164,6 @@ class TableAxis:
 _STATE = {"pointer": "ptr"}
 
 
-def number_networks(text: str) -> str:
-    """The networks of each block counted from 1: templates share parts, so that only the whole knows the numbers."""
-    lines, number = [], 0
-    for line in text.split("\n"):
-        if "_BLOCK " in line:
-            number = 0
-        if line.startswith("Network"):
-            number += 1
-            line = f"Network {number}{line.removeprefix('Network')}"
-        lines.append(line)
-    return "\n".join(lines)
-
-
 def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
     """Everything the templates may name."""
     addresses = memory_map(job)
@@ -248,8 +179,8 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
         "unverified": not verified,
         "unit": job.length_unit,
         "v": Addresses(addresses),
-        "block": Routines({key: routine.name for key, routine in blocks.items()}),
-        "call": Routines({key: routine.name.split(":")[1] for key, routine in blocks.items()}),
+        "block": heads(blocks),
+        "call": calls(blocks),
         "ports": (x, y),
         "x": x,
         "y": y,
@@ -259,7 +190,7 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
         "fixed_jerk_time": keys.short_moves == "fixed-jerk-time",
         "milliseconds": round(job.sample_period * 1000),
         "train_share": f"{100 * TRAIN_SHARE:g}",
-        "symbols": symbols(job, addresses),
+        "symbols": layout(job).symbols(job),
         "files": output_files(job),
         "tab": "\t",
         "axes": (TableAxis("leading axis", False, addresses), TableAxis("other axis", True, addresses)),
@@ -267,5 +198,5 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
         "is_table": keys.mode == "table",
         "is_sampled": keys.mode != "table",
         "first_byte": keys.v_memory,
-        "last_byte": end_of_memory(job) - 1,
+        "last_byte": layout(job).end - 1,
     }

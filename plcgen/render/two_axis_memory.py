@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from plcgen.job import HIGHEST_V_BYTE, Job
+from plcgen.job import Job
 from plcgen.profile.two_axis import SHORTEST_JERK_TIME
-from plcgen.targets import SMART
+from plcgen.render.smart_memory import Bit, MemoryMap, Variable
 
 MOST_SEGMENTS = 255
 # Table mode: the time of a move over SHARE is the longest segment, so that 7 phases have SHARE + 7 of them; what is
@@ -14,27 +12,6 @@ MOST_SEGMENTS = 255
 SHARE, LEAST_JERK = 200, 12
 FINEST, SHORTEST = 0.01, SHORTEST_JERK_TIME  # s
 STEPS = 4  # segments of each axis in one scan
-
-
-@dataclass(frozen=True)
-class Variable:
-    """One row of the memory map: the name templates use, its symbol, type, and meaning."""
-
-    name: str
-    symbol: str
-    type: str  # REAL, DINT, BYTE, or TABLE
-    comment: str
-
-
-@dataclass(frozen=True)
-class Bit:
-    """One bit of a byte of the memory map."""
-
-    byte: str
-    number: int
-    name: str
-    symbol: str
-    comment: str
 
 
 # Order, parameters, plan and state in the order of their addresses. {u} is the length unit.
@@ -156,8 +133,7 @@ TABLE = (
     Variable("table_x", "TableX", "PROFILE", "profile table of x"),
     Variable("table_y", "TableY", "PROFILE", "profile table of y"),
 )
-SIZES = {"REAL": 4, "DINT": 4, "WORD": 2, "BYTE": 1, "TABLE": 14, "PROFILE": 2 + 12 * MOST_SEGMENTS}
-AREAS = {"REAL": "VD", "DINT": "VD", "WORD": "VW", "BYTE": "VB", "TABLE": "VB", "PROFILE": "VB"}
+BLOCKS = {"TABLE": 14, "PROFILE": 2 + 12 * MOST_SEGMENTS}  # bytes
 
 BITS = (
     Bit("command", 0, "stop", "Stop", "1: come to rest within the limits"),
@@ -191,15 +167,14 @@ def variables(job: Job) -> tuple[Variable, ...]:
     return COMMON + (TABLE if job.two_axis.mode == "table" else INTERRUPT)
 
 
+def layout(job: Job) -> MemoryMap:
+    """Where everything lies."""
+    return MemoryMap(job.two_axis.v_memory, variables(job), BITS, BLOCKS)
+
+
 def memory_map(job: Job) -> dict[str, str]:
     """Address of every variable and bit by its name in the templates."""
-    addresses: dict[str, str] = {}
-    byte = job.two_axis.v_memory
-    for row in variables(job):
-        addresses[row.name] = f"{AREAS[row.type]}{byte}"
-        byte += SIZES[row.type]
-    for bit in BITS:
-        addresses[bit.name] = f"V{addresses[bit.byte][2:]}.{bit.number}"
+    addresses = layout(job).addresses()
     addresses["pace_lead"] = addresses["speed"]
     for axis in ("lead", "follow"):
         if f"segments_{axis}" in addresses:
@@ -207,40 +182,6 @@ def memory_map(job: Job) -> dict[str, str]:
     return addresses
 
 
-def end_of_memory(job: Job) -> int:
-    """The first V byte behind the memory map."""
-    return job.two_axis.v_memory + sum(SIZES[row.type] for row in variables(job))
-
-
 def refuse_what_does_not_fit(job: Job) -> None:
     """V memory and the length of symbols. Raises JobError."""
-    taken = end_of_memory(job) - job.two_axis.v_memory
-    if end_of_memory(job) > HIGHEST_V_BYTE + 1:
-        raise job.error(
-            "two-axis.v_memory",
-            f"v_memory = {job.two_axis.v_memory} leaves too little: {taken} bytes are needed up to "
-            f"VB{HIGHEST_V_BYTE}; write at most {HIGHEST_V_BYTE + 1 - taken}",
-        )
-    longest = max([row.symbol for row in variables(job)] + [bit.symbol for bit in BITS], key=len)
-    excess = len(f"{job.name}_{longest}") - SMART.max_identifier
-    if excess > 0:
-        raise job.error(
-            "name",
-            f'name = "{job.name}" has {len(job.name)} characters; {SMART.name} takes {len(job.name) - excess}, for the '
-            f"symbol {job.name}_{longest} comes of it",
-        )
-
-
-@dataclass(frozen=True)
-class SymbolLine:
-    symbol: str
-    address: str
-    comment: str
-
-
-def symbols(job: Job, addresses: dict[str, str]) -> tuple[SymbolLine, ...]:
-    """Rows to paste into the symbol table. Each symbol begins with the name of the job."""
-    unit = job.length_unit
-    rows = (SymbolLine(f"{job.name}_{r.symbol}", addresses[r.name], r.comment.format(u=unit)) for r in variables(job))
-    bits = (SymbolLine(f"{job.name}_{b.symbol}", addresses[b.name], b.comment) for b in BITS)
-    return (*rows, *bits)
+    layout(job).refuse_what_does_not_fit(job, "two-axis.v_memory")

@@ -1,7 +1,7 @@
 """Seeded faults: every single-token change of a source that could be somebody's slip of the finger.
 
 Used by test_seeded_faults.py; run as a program it tries all of them and lists the survivors:
-    python tests/check/seeded_faults.py [--target s7-300-scl]
+    python tests/check/seeded_faults.py [--case hoist] [--target s7-300-scl]
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from plcgen.plan import Plan
 from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
 from plcgen.plc.source import decode_source
 
-# A jerk that is not 1, a^2/m and a^2 m on either side of the change of speed, and an envelope in which each of its four
-# curves counts somewhere: few lines are without effect.
-JOB = """
+# Small jobs, in which few lines are without effect.
+# Hoist: a jerk that is not 1, a^2/m and a^2 m on either side of the change of speed, and an envelope in which each of
+# its four curves counts somewhere.
+HOIST = """
 name = "Small"
 method = "hoist"
 targets = ["s7-300-scl", "tia-scl"]
@@ -49,6 +50,57 @@ brake_deceleration = 1.1
 reaction_time = 0.1
 end_velocity = 0.55
 """
+
+RAMP = """
+name = "Small"
+method = "cosine"
+targets = ["s7-300-scl", "tia-scl"]
+length_unit = "m"
+sample_period = 0.01
+
+[cosine]
+max_velocity = 1.3
+max_acceleration = 3.1
+jerk = 21.0
+filter_length = 9
+
+[[cosine.moves]]
+from = -0.2
+to = 1.1
+
+[[cosine.moves]]
+from = 0.1
+to = 0.15
+"""
+
+MOVE = """
+name = "Small"
+method = "cosine"
+targets = ["s7-300-scl", "tia-scl"]
+length_unit = "m"
+sample_period = 0.01
+
+[cosine]
+max_velocity = 1.3
+max_acceleration = 3.1
+jerk = 60.0
+filter_length = 9
+shape = "half-sine"
+
+[[cosine.moves]]
+distance = 3.0
+
+[[cosine.moves]]
+distance = -0.7
+
+[[cosine.moves]]
+distance = 0.2
+
+[[cosine.moves]]
+distance = 0.01
+"""
+
+CASES = {"hoist": HOIST, "ramp": RAMP, "move": MOVE}
 
 SWAPS = {
     "+": ["-"],
@@ -104,22 +156,22 @@ def _owner(text: str, start: int) -> str:
 
 
 @cache
-def plan() -> Plan:
-    return pipeline.prepare(parse_job(JOB, "small.toml"))
+def plan(case: str) -> Plan:
+    return pipeline.prepare(parse_job(CASES[case], "small.toml"))
 
 
 @cache
-def sound_files(target: str) -> dict[str, bytes]:
-    return pipeline.sources(plan(), target)
+def sound_files(case: str, target: str) -> dict[str, bytes]:
+    return pipeline.sources(plan(case), target)
 
 
-def source_text(target: str) -> str:
-    return decode_source("Small.scl", sound_files(target)["Small.scl"]).text
+def source_text(case: str, target: str) -> str:
+    return decode_source("Small.scl", sound_files(case, target)["Small.scl"]).text
 
 
-def all_faults(target: str) -> list[SeededFault]:
+def all_faults(case: str, target: str) -> list[SeededFault]:
     """Every fault, in the order of the text."""
-    source = decode_source("Small.scl", sound_files(target)["Small.scl"])
+    source = decode_source("Small.scl", sound_files(case, target)["Small.scl"])
     found = [token for token in tokens(source, SCL_CLASSIC) if token.kind is not TokenKind.END]
     faults = [*_swapped(source.text, found), *_dropped(source.text)]
     return sorted(faults, key=lambda fault: (fault.start, fault.replacement))
@@ -155,28 +207,29 @@ def _dropped(text: str) -> Iterator[SeededFault]:
         yield SeededFault(match.start(), match.end(), "", line, match.group())
 
 
-def survives(target: str, fault: SeededFault) -> bool:
+def survives(case: str, target: str, fault: SeededFault) -> bool:
     """True when verification finds nothing wrong with the faulty source."""
-    text = fault.apply(source_text(target))
-    files = {**sound_files(target), "Small.scl": text.encode("utf-8")}
+    text = fault.apply(source_text(case, target))
+    files = {**sound_files(case, target), "Small.scl": text.encode("utf-8")}
     try:
-        return pipeline.verify(plan(), target, files, fail_fast=True).ok
+        return pipeline.verify(plan(case), target, files, fail_fast=True).ok
     except PlcgenError:
         return False
 
 
-def survivors(target: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
+def survivors(case: str, target: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
     """Those that nothing caught, as they turn up; in a pool of processes."""
     with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(partial(survives, target), faults, chunksize=4)
+        verdicts = pool.map(partial(survives, case, target), faults, chunksize=4)
         yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
+    parser.add_argument("--case", default="hoist", choices=CASES)
     parser.add_argument("--target", default="s7-300-scl")
-    target = parser.parse_args().target
-    faults = all_faults(target)
+    arguments = parser.parse_args()
+    faults = all_faults(arguments.case, arguments.target)
     print(len(faults), "faults")
-    for fault in survivors(target, faults):
-        print(f"{fault.line}: {fault.within(source_text(target))}", flush=True)
+    for fault in survivors(arguments.case, arguments.target, faults):
+        print(f"{fault.line}: {fault.within(source_text(arguments.case, arguments.target))}", flush=True)

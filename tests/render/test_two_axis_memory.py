@@ -10,16 +10,14 @@ import pytest
 
 from plcgen.errors import JobError
 from plcgen.job import HIGHEST_V_BYTE, Job, parse_job
+from plcgen.render.smart_memory import AREAS, SIZES, Variable
 from plcgen.render.two_axis_memory import (
-    AREAS,
     BITS,
+    BLOCKS,
     MOST_SEGMENTS,
-    SIZES,
-    Variable,
-    end_of_memory,
+    layout,
     memory_map,
     refuse_what_does_not_fit,
-    symbols,
     variables,
 )
 
@@ -34,7 +32,7 @@ def job_of(mode: str, v_memory: int = 1000, name: str = "Table") -> Job:
 
 def bytes_of(job: Job, row: Variable) -> range:
     start = int(re.sub(r"\D", "", memory_map(job)[row.name]))
-    return range(start, start + SIZES[row.type])
+    return range(start, start + layout(job).size(row))
 
 
 @pytest.mark.parametrize("mode", NEEDED)
@@ -44,13 +42,13 @@ def test_variables_follow_one_another_from_v_memory_on(mode: str, v_memory: int)
     places = [bytes_of(job, row) for row in variables(job)]
     assert places[0].start == v_memory
     assert all(before.stop == after.start for before, after in pairwise(places))
-    assert places[-1].stop == end_of_memory(job) == v_memory + NEEDED[mode]
+    assert places[-1].stop == layout(job).end == v_memory + NEEDED[mode]
 
 
 @pytest.mark.parametrize("mode", NEEDED)
 def test_words_and_tables_have_even_addresses(mode: str) -> None:
     job = job_of(mode)
-    odd = [row.name for row in variables(job) if SIZES[row.type] > 1 and bytes_of(job, row).start % 2]
+    odd = [row.name for row in variables(job) if layout(job).size(row) > 1 and bytes_of(job, row).start % 2]
     assert not odd
 
 
@@ -59,13 +57,13 @@ def test_addresses_are_as_wide_as_what_they_hold(mode: str) -> None:
     job = job_of(mode)
     widths = {"VB": 1, "VW": 2, "VD": 4}
     for row in variables(job):
-        assert memory_map(job)[row.name].startswith(AREAS[row.type])
-        assert widths[AREAS[row.type]] == SIZES[row.type] or row.type in ("TABLE", "PROFILE")
+        area = memory_map(job)[row.name][:2]
+        assert (row.type in BLOCKS and area == "VB") or (area == AREAS[row.type] and widths[area] == SIZES[row.type])
 
 
 def test_a_profile_table_holds_the_most_segments() -> None:
     """A count, 12 bytes for each segment, and one byte that makes it even."""
-    assert SIZES["PROFILE"] == 1 + 12 * MOST_SEGMENTS + 1
+    assert BLOCKS["PROFILE"] == 1 + 12 * MOST_SEGMENTS + 1
 
 
 @pytest.mark.parametrize("mode", NEEDED)
@@ -85,7 +83,7 @@ def test_names_are_unique(mode: str) -> None:
     job = job_of(mode)
     names = [row.name for row in variables(job)] + [bit.name for bit in BITS]
     assert len(set(names)) == len(names)
-    lines = symbols(job, memory_map(job))
+    lines = layout(job).symbols(job)
     assert len({line.symbol.casefold() for line in lines}) == len({line.address for line in lines}) == len(names)
     assert all(line.symbol.startswith("Table_") and line.comment for line in lines)
     assert not any("{" in line.comment for line in lines)
@@ -107,4 +105,4 @@ def test_the_last_byte_may_be_used_and_no_further(mode: str) -> None:
 def test_a_name_may_be_so_long_that_every_symbol_is_taken(mode: str) -> None:
     job = job_of(mode, name="TableOfTen")
     refuse_what_does_not_fit(job)
-    assert max(len(line.symbol) for line in symbols(job, memory_map(job))) <= 23
+    assert max(len(line.symbol) for line in layout(job).symbols(job)) <= 23

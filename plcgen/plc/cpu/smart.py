@@ -195,6 +195,12 @@ class Smart:
             self._main()
         self._advance(time_us)
 
+    def run_interrupt(self, event: int) -> None:
+        """Run the routine that is attached to an event, here and now: one sample after another, without time."""
+        if event not in self._attached:
+            raise PlcgenError(f"no interrupt routine is attached to event {event}; ATCH it in the first scan")
+        self._interrupt(self._attached[event])
+
     def _main(self) -> None:
         self._outputs()
         milliseconds = self.time_us // MILLISECOND

@@ -182,6 +182,16 @@ def test_events_can_be_cleared_while_they_wait(smart: Make) -> None:
     assert count(machine) == 0
 
 
+def test_an_attached_routine_runs_without_time(smart: Make) -> None:
+    machine = smart({"scan_us": 500}, OB1=START.format(period=10), INT0=COUNT)
+    with pytest.raises(PlcgenError, match="no interrupt routine is attached to event 10"):
+        machine.run_interrupt(10)
+    machine.scan()
+    for _ in range(5):
+        machine.run_interrupt(10)
+    assert (machine.time_us, count(machine)) == (500, 5)
+
+
 def test_urgent_interrupts_come_first(smart: Make) -> None:
     """Communication, then inputs, then timers; within a group in the order of arrival."""
     body = "LD SM0.0\n*I +10, VW0\n+I +{}, VW0"

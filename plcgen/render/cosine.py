@@ -1,0 +1,74 @@
+"""What the SCL templates of the method `cosine` see, and the files they make for each target."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plcgen.job import Job
+from plcgen.profile.constants import ConstantGroup
+from plcgen.render.files import OutputFile
+from plcgen.render.scl_source import SymbolLine, address, constant_lines, source_context
+
+BODIES = {"centred": "ramp", "half-sine": "move"}
+"""Stem of the templates by shape."""
+
+
+@dataclass(frozen=True)
+class BlockNames:
+    """Names as the target's source spells them."""
+
+    fb: str
+    db: str
+    restart_fc: str
+    cyclic_fc: str
+
+
+def block_names(job: Job, target: str) -> BlockNames:
+    """Classic sources name blocks by number, so that they compile without a symbol table; TIA sources by name."""
+    blocks = job.function_block
+    if target == "s7-300-scl":
+        return BlockNames(f"FB{blocks.fb}", f"DB{blocks.db}", "OB100", "OB35")
+    fb, restart, cyclic = (f'"{name}"' for name in (blocks.fb_name, blocks.restart_name, blocks.cyclic_name))
+    return BlockNames(fb, f'"{blocks.db_name}"', restart, cyclic)
+
+
+def output_files(job: Job, target: str) -> tuple[OutputFile, ...]:
+    """Files of a target in the order of import."""
+    stem, body = job.name, BODIES[job.cosine.shape]
+    files = (
+        OutputFile("symbols.asc", f"{stem}.asc", "symbol table, fixed columns"),
+        OutputFile("symbols.sdf", f"{stem}.sdf", "symbol table, comma-separated: the same symbols"),
+        OutputFile(f"{body}.scl", f"{stem}.scl", "the blocks"),
+        OutputFile(f"{body}_example.scl", f"{stem}_example.scl", "example calls"),
+        OutputFile(f"{body}_import.md", "IMPORT.md", "this note"),
+    )
+    has_symbols = target == "s7-300-scl"
+    return tuple(file for file in files if has_symbols or not file.template.startswith("symbols"))
+
+
+def cosine_context(job: Job, groups: tuple[ConstantGroup, ...], target: str, verified: bool) -> dict[str, object]:
+    """Everything the templates of one target may name."""
+    names = block_names(job, target)
+    length = job.cosine.filter_length
+    return {
+        **vars(names),
+        **source_context(job, verified),
+        "constant_groups": constant_lines(groups),
+        "filter_length": length,
+        "averages": length > 1,
+        "last_index": length - 1,
+        "max_velocity": job.cosine.max_velocity,
+        "symbols": _symbols(job),
+        "files": output_files(job, target),
+        "blocks_in_order": f"{names.fb}, {names.db}",
+    }
+
+
+def _symbols(job: Job) -> tuple[SymbolLine, ...]:
+    blocks = job.function_block
+    fb = address("FB", blocks.fb)
+    purposes = {"centred": "speed ramps", "half-sine": "moves of half-sine speed"}
+    return (
+        SymbolLine(blocks.fb_name, fb, fb, f"{purposes[job.cosine.shape]} behind a moving average"),
+        SymbolLine(blocks.db_name, address("DB", blocks.db), fb, "its instance data"),
+    )
