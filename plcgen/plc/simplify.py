@@ -57,41 +57,68 @@ def stops(operator: Operator) -> bool:
 # --------------------------------------------------------------------------------------------------- what is known
 
 
+Origin = tuple[Operator, tuple[Operand, ...]]
+
+
 @dataclass
 class _Facts:
-    """What holds at one place: values of places, and how registers were computed."""
+    """What holds at one place: values of registers (by number) and cells, and how registers were computed.
 
-    values: dict[Place, Register | Literal] = field(default_factory=dict)
-    origins: dict[Register, tuple[Operator, tuple[Operand, ...]]] = field(default_factory=dict)
+    `mentioned` has every register that some fact names as a value or operand, and perhaps others.
+    """
+
+    values: dict[int, Register | Literal] = field(default_factory=dict)
+    cells: dict[Cell, Register | Literal] = field(default_factory=dict)
+    origins: dict[int, Origin] = field(default_factory=dict)
+    mentioned: set[int] = field(default_factory=set)
 
     def copy(self) -> _Facts:
-        return _Facts(dict(self.values), dict(self.origins))
+        return _Facts(dict(self.values), dict(self.cells), dict(self.origins), set(self.mentioned))
 
     def meet(self, other: _Facts) -> bool:
         """Keep what holds in both; whether anything was lost."""
-        values = {k: v for k, v in self.values.items() if _same(v, other.values.get(k))}
-        origins = {k: v for k, v in self.origins.items() if other.origins.get(k) == v}
-        lost = len(values) < len(self.values) or len(origins) < len(self.origins)
-        self.values, self.origins = values, origins
-        return lost
+        before = len(self.values) + len(self.cells) + len(self.origins)
+        self.values = {k: v for k, v in self.values.items() if _same(v, other.values.get(k))}
+        self.cells = {k: v for k, v in self.cells.items() if _same(v, other.cells.get(k))}
+        self.origins = {k: v for k, v in self.origins.items() if other.origins.get(k) == v}
+        return len(self.values) + len(self.cells) + len(self.origins) < before
 
     def of(self, operand: Operand) -> Operand:
         """What an operand is known to hold, else itself."""
-        if isinstance(operand, Literal):
-            return operand
-        return self.values.get(operand, operand)
+        if isinstance(operand, Register):
+            return self.values.get(operand.number, operand)
+        return self.cells.get(operand, operand) if isinstance(operand, Cell) and self.cells else operand
+
+    def learn_value(self, target: Place, value: Register | Literal) -> None:
+        self._mention((value,))
+        if isinstance(target, Register):
+            self.values[target.number] = value
+        else:
+            self.cells[target] = value
+
+    def learn_origin(self, target: Register, origin: Origin) -> None:
+        self._mention(origin[1])
+        self.origins[target.number] = origin
+
+    def _mention(self, operands: Sequence[Operand]) -> None:
+        self.mentioned.update(operand.number for operand in operands if isinstance(operand, Register))
 
     def forget(self, target: Place) -> None:
         """The target is about to change."""
-        if isinstance(target, Register):
-            self.values = {k: v for k, v in self.values.items() if k != target and v != target}
-            self.origins = {k: v for k, v in self.origins.items() if k != target and target not in v[1]}
-        else:
-            self.values = {k: v for k, v in self.values.items() if isinstance(k, Register) or not _overlap(k, target)}
+        if isinstance(target, Cell):
+            self.cells = {k: v for k, v in self.cells.items() if not _overlap(k, target)}
+            return
+        self.values.pop(target.number, None)
+        self.origins.pop(target.number, None)
+        if target.number in self.mentioned:
+            self.mentioned.discard(target.number)
+            self.values = {k: v for k, v in self.values.items() if v != target}
+            self.cells = {k: v for k, v in self.cells.items() if v != target}
+            self.origins = {k: v for k, v in self.origins.items() if target not in v[1]}
 
     def forget_shared(self) -> None:
         """Another function ran: it may have changed all memory but this frame."""
-        self.values = {k: v for k, v in self.values.items() if isinstance(k, Register) or k.area == FRAME}
+        self.cells = {k: v for k, v in self.cells.items() if k.area == FRAME}
 
 
 def _same(one: Operand, other: Operand | None) -> bool:
@@ -122,11 +149,13 @@ class _Forward:
     function: Function
     inverses: Inverses
     _arriving: dict[str, _Facts] = field(default_factory=dict)
+    _passed: set[str] = field(default_factory=set)
+    _lost: bool = False
 
     def body(self) -> tuple[Instruction, ...]:
         """Walk until what arrives at the labels stays the same; the last walk writes."""
         while True:
-            self._lost = False
+            self._lost, self._passed = False, set()
             body = tuple(self._walk())
             if not self._lost:
                 return body
@@ -147,6 +176,7 @@ class _Forward:
     def _at_label(self, label: str, falling: _Facts | None) -> _Facts | None:
         if falling is not None:
             self._arrive(label, falling)
+        self._passed.add(label)
         arriving = self._arriving.get(label)
         return arriving.copy() if arriving else None
 
@@ -154,9 +184,9 @@ class _Forward:
         known = self._arriving.get(label)
         if known is None:
             self._arriving[label] = facts.copy()
-            self._lost = True
+            self._lost = self._lost or label in self._passed
         elif known.meet(facts):
-            self._lost = True
+            self._lost = self._lost or label in self._passed
 
     def _step(self, instruction: Instruction, facts: _Facts) -> Iterator[Instruction]:
         match instruction:
@@ -178,8 +208,8 @@ class _Forward:
 
     def _branch(self, branch: Branch, facts: _Facts) -> Iterator[Instruction]:
         condition, when = facts.of(branch.condition), branch.when
-        while isinstance(condition, Register) and condition in facts.origins:
-            operator, operands = facts.origins[condition]
+        while isinstance(condition, Register) and condition.number in facts.origins:
+            operator, operands = facts.origins[condition.number]
             if operator.name != "NOT" or operator.result is not BOOL:
                 break
             condition, when = operands[0], not when
@@ -217,7 +247,7 @@ class _Forward:
     def _inverted(self, operator: Operator, operands: tuple[Operand, ...], facts: _Facts) -> Operand | None:
         if len(operands) != 1 or not isinstance(operands[0], Register):
             return None
-        origin = facts.origins.get(operands[0])
+        origin = facts.origins.get(operands[0].number)
         number = self.inverses.get((operator, origin[0])) if origin else None
         return origin[1][number] if origin and number is not None else None
 
@@ -227,11 +257,11 @@ class _Forward:
         if operator.name == "MOVE":
             (source,) = operands
             if isinstance(source, Literal | Register) and _is_plain(target):
-                facts.values[target] = source
+                facts.learn_value(target, source)
             elif isinstance(source, Cell) and isinstance(target, Register) and _is_plain(source):
-                facts.values[source] = target
+                facts.learn_value(source, target)
         elif isinstance(target, Register) and not cells and target not in operands:
-            facts.origins[target] = (operator, operands)
+            facts.learn_origin(target, (operator, operands))
 
 
 def _is_plain(place: Place) -> bool:

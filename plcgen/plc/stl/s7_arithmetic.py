@@ -189,15 +189,11 @@ def rounding(symbol: str) -> Emit:
     def emit(code: Code) -> None:
         operand = code.view(REAL)
         code.result(code.compute(row(symbol, REAL), operand))
-        _note_overflow(code, code.compute(OUTSIDE_DINT, operand))
+        overflow = code.compute(OUTSIDE_DINT, operand)
+        for register in (OV, OS):  # neither is reset when all goes well
+            code.put(register, code.compute(row("OR", BOOL, BOOL), register, overflow))
 
     return emit
-
-
-def _note_overflow(code: Code, overflow: Operand) -> None:
-    """OV and OS alone."""
-    code.put(OV, overflow)
-    code.put(OS, code.compute(row("OR", BOOL, BOOL), OS, overflow))
 
 
 def from_bcd(name: str) -> Emit:
@@ -211,7 +207,9 @@ def to_bcd(name: str, kind: Elementary) -> Emit:
     def emit(code: Code) -> None:
         operand = code.view(kind)
         put_low(code, code.compute(BCD[name], operand))
-        _note_overflow(code, code.compute(NO_BCD[kind], operand))
+        overflow = code.compute(NO_BCD[kind], operand)
+        code.put(OV, overflow)
+        code.put(OS, code.compute(row("OR", BOOL, BOOL), OS, overflow))
 
     return emit
 

@@ -53,11 +53,25 @@ def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS) -> P
 def _functions(blocks: Sequence[Block], catalogue: Catalogue) -> dict[str, Function]:
     """Again and again, until no block is found to read another register of its callers or callees."""
     handovers = Handovers()
+    written: list[tuple[object, Function]] = [(None, _function(block, catalogue, handovers)) for block in blocks]
     while True:
-        functions = [_function(block, catalogue, handovers) for block in blocks]
-        news = [_found(function, handovers) for function in functions]
+        news = [_found(function, handovers) for _, function in written]
         if not any(news):
-            return {function.name: function for function in functions}
+            return {function.name: function for _, function in written}
+        written = [
+            _rewritten(block, catalogue, handovers, seen, function)
+            for block, (seen, function) in zip(blocks, written, strict=True)
+        ]
+
+
+def _rewritten(
+    block: Block, catalogue: Catalogue, handovers: Handovers, seen: object, function: Function
+) -> tuple[object, Function]:
+    """The function once more if what it must hand on has changed since `seen`."""
+    callees = sorted({item.function for item in function.body if isinstance(item, Call)})
+    entries = [(callee, frozenset(handovers.entry[callee])) for callee in callees]
+    needed = (frozenset(handovers.exit[function.name]), entries)
+    return needed, function if needed == seen else _function(block, catalogue, handovers)
 
 
 def _reads_shared(function: Function) -> bool:

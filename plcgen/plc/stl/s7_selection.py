@@ -84,7 +84,10 @@ def selections(statements: Sequence[Statement], start: Selection, surroundings: 
             if merged != before:
                 known[successor] = merged
                 pending.append(successor)
-    return [known.get(number, Selection()) for number in range(len(statements))]
+    for number in range(1, len(statements)):
+        if number not in known:  # no path comes here
+            known[number] = _after(statements[number - 1], known[number - 1], surroundings)
+    return [known[number] for number in range(len(statements))]
 
 
 def _successors(statements: Sequence[Statement], number: int, labels: Mapping[str, int]) -> list[int]:
