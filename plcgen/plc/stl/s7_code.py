@@ -15,7 +15,7 @@ from plcgen.plc.stl.s7_operators import BITS, VIEWS, row
 from plcgen.plc.stl.s7_registers import ACCU1, ACCU2, CC, FALSE, FC, OR, OS, OV
 from plcgen.plc.stl.s7_scope import Scope
 from plcgen.plc.stl.s7_selection import Selection
-from plcgen.plc.types import BOOL, DWORD, Elementary, Type
+from plcgen.plc.types import BOOL, DWORD, Elementary
 
 
 @dataclass(frozen=True)
@@ -108,8 +108,3 @@ class Code:
         """The next logic instruction begins anew."""
         self.put(FC, FALSE)
         self.put(OR, FALSE)
-
-
-def spelt(kind: Type) -> str:
-    """How wide a type is, in words."""
-    return {1: "a bit", 8: "a byte", 16: "a word", 32: "a double word"}.get(kind.bits, str(kind))

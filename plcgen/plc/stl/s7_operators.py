@@ -267,7 +267,7 @@ MOVE_POINTER = Operator("+AR", (DWORD, DINT), DWORD, "{0} & 4278190080 | {0} + {
 def pointed(room: int, bits: int, offset: int, what: str) -> Operator:
     """(pointer) : bits from the start of an area of `room` bits to what lies there; outside it stops the CPU."""
     aligned = "" if bits == 1 else " or {r} & 7"
-    stop = f"stop('pointer P#%d.%d: no {what} there' % ({{r}} >> 3, {{r}} & 7), {{site}})"
+    stop = f"stop('pointer P#%d.%d: {what} there' % ({{r}} >> 3, {{r}} & 7), {{site}})"
     text = f"({{0}} & 16777215) + {offset}"
     return Operator("POINTED", (DWORD,), DINT, text, False, f"{{r}} > {room - bits}{aligned}", stop)
 

@@ -10,7 +10,7 @@ from plcgen.plc.scl.lowering_declarations import member_at
 from plcgen.plc.scl.syntax import BlockKind
 from plcgen.plc.scl.syntax import Scope as Spelling
 from plcgen.plc.stl import s7_syntax as syntax
-from plcgen.plc.stl.s7_code import Code, spelt
+from plcgen.plc.stl.s7_code import Code
 from plcgen.plc.stl.s7_constants import POINTER_AREAS
 from plcgen.plc.stl.s7_operators import CONDITIONS, STATUS_WORD, pointed
 from plcgen.plc.stl.s7_registers import AR1, AR2, BR, CC, OS, OV, RLO
@@ -27,6 +27,8 @@ _AREAS: Mapping[str, Area] = {
     "PQ": Area.PERIPHERAL_OUTPUTS,
     "L": FRAME,
 }
+
+_WIDTHS = {1: "bit", 8: "byte", 16: "word", 32: "double word"}
 
 # ------------------------------------------------------------------------------------------------------------ places
 
@@ -150,7 +152,8 @@ def _by_register(code: Code, operand: syntax.RegisterIndirect) -> Cell:
 def _pointed(code: Code, operand: syntax.Operand, letters: str, pointer: Operand, offset: int, size: str) -> Cell:
     area, room = area_of(code, operand, letters)
     kind = SIZES[size]
-    index = code.compute(pointed(room, kind.bits, offset, f"{spelt(kind)} of {_shown(code, area)}"), pointer)
+    what = f"{_shown(code, area)} has no {_WIDTHS[kind.bits]}"
+    index = code.compute(pointed(room, kind.bits, offset, what), pointer)
     return Cell(area, 0, kind, index)
 
 

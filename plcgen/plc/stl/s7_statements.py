@@ -89,6 +89,8 @@ class Reader:
         if _END.match(text, start) and label is not None:
             raise self.source.error(f"label {label.name} names no instruction; write NOP 0; behind it", label.span)
         match = _MNEMONIC.match(text, start)
+        if text.startswith("(*", start):
+            raise self.source.error("(* *) is no comment in STL; write //", Span(start, start + 2))
         if match is None:
             raise self.source.error(f"an instruction expected, found {text[start]}", Span(start, start + 1))
         self.position = match.end()
