@@ -69,10 +69,11 @@ class Calls:
         self._run(interface.name)
 
     def conditional(self, operand: syntax.Operand) -> None:
-        """CC: when the RLO is 1"""
+        """CC: when the RLO is 1. OS and RLO are set whether it is or not."""
         code = self.code
         rlo, behind = code.taken(RLO), code.builder.label()
         code.put(RLO, TRUE)
+        code.put(OS, FALSE)
         code.end_of_logic()
         code.builder.branch(rlo, behind, False)
         self.plain(operand)

@@ -299,6 +299,38 @@ def pointer(w: Writer) -> None:
         w.one, w.two = BITS, w.one
 
 
+def pointer_in_memory(w: Writer) -> None:
+    place = w.random.randrange(TABLE_WORDS - 2) * 2
+    w.put("OPN DB {table}", f"L P#{place}.0", "T MD 0")
+    w.two, w.one = w.one, BITS
+    if w.random.random() < 0.5:
+        w.put(f"L DB{w.choose('B W D')} [MD 0]")
+        w.one, w.two = BITS, w.one
+    else:
+        w.load("d")
+        w.put("T DBD [MD 0]")
+
+
+def temporary(w: Writer) -> None:
+    """Written before it is read, since what it holds at first is nobody's business."""
+    name = w.choose("#tr #ts") if w.one == "r" else w.choose("#td #te #tw")
+    kept = BITS if w.one != "r" else "r"
+    w.put(f"T {name}")
+    if w.depth < 4:
+        body(w, 1)
+        if kept == "r" or w.random.random() < 0.5:  # what lies between may have written it again, with its own kind
+            w.put(f"L {name}")
+            w.one, w.two = kept, w.one
+
+
+def call(w: Writer) -> None:
+    """An FC that works on the accumulators it finds."""
+    w.put("UC FC {number}" if w.random.random() < 0.6 else "CC FC {number}")
+    w.one, w.two = BITS, BITS
+    if w.random.random() < 0.3:
+        w.put(f"= {w.variable('b')}")
+
+
 SNIPPETS: list[tuple[Callable[[Writer], None], int]] = [
     (integers, 4),
     (doubles, 4),
@@ -314,6 +346,9 @@ SNIPPETS: list[tuple[Callable[[Writer], None], int]] = [
     (loop, 1),
     (distributor, 1),
     (pointer, 2),
+    (pointer_in_memory, 1),
+    (temporary, 2),
+    (call, 1),
 ]
 
 
@@ -346,7 +381,8 @@ def program(random: Random, number: int) -> str:
         number=number,
         table=number + TABLES,
         declared=declared,
-        body="\n".join(w.lines).format(table=number + TABLES),
+        body="\n".join(w.lines).format(table=number + TABLES, number=number),
+        function=function(random),
         values=values,
         last=TABLE_WORDS - 1,
         entries=table,
@@ -364,6 +400,14 @@ STRUCT
 END_STRUCT ;
 BEGIN
 {entries}END_DATA_BLOCK
+FUNCTION FC {number} : VOID
+TITLE =
+VERSION : 0.1
+BEGIN
+NETWORK
+TITLE =
+{function}
+END_FUNCTION
 FUNCTION_BLOCK FB {number}
 TITLE =
 VERSION : 0.1
@@ -372,6 +416,13 @@ VAR
   one : DWORD ;
   two : DWORD ;
   stw : WORD ;
+END_VAR
+VAR_TEMP
+  tr : REAL ;
+  ts : REAL ;
+  td : DINT ;
+  te : DWORD ;
+  tw : WORD ;
 END_VAR
 BEGIN
 NETWORK
@@ -389,6 +440,21 @@ BEGIN
   stw := W#16#0;
 END_DATA_BLOCK
 """
+
+
+def function(random: Random) -> str:
+    """The body of an FC that knows nothing but accumulators and status bits."""
+    w = Writer(random)
+    for _ in range(random.randint(1, 4)):
+        if random.random() < 0.5:
+            accumulators(w)
+        else:
+            w.put(w.choose("+I -I *I +D -D ==I >D <>D") if random.random() < 0.7 else f"SLW {random.randint(0, 15)}")
+    if random.random() < 0.3:
+        w.put("SAVE")
+    if random.random() < 0.3:
+        w.put("BEC", f"L {constant(random, 'i')}")
+    return "\n".join(w.lines)
 
 
 def calls(numbers: range) -> str:
