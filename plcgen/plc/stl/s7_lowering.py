@@ -53,25 +53,27 @@ def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS) -> P
 def _functions(blocks: Sequence[Block], catalogue: Catalogue) -> dict[str, Function]:
     """Again and again, until no block is found to read another register of its callers or callees."""
     handovers = Handovers()
-    written: list[tuple[object, Function]] = [(None, _function(block, catalogue, handovers)) for block in blocks]
+    functions = [_function(block, catalogue, handovers) for block in blocks]
+    written = [_needed(function, Handovers()) for function in functions]
     while True:
-        news = [_found(function, handovers) for _, function in written]
+        news = [_found(function, handovers) for function in functions]
         if not any(news):
-            return {function.name: function for _, function in written}
-        written = [
-            _rewritten(block, catalogue, handovers, seen, function)
-            for block, (seen, function) in zip(blocks, written, strict=True)
-        ]
+            return {function.name: function for function in functions}
+        for number, block in enumerate(blocks):
+            needed = _needed(functions[number], handovers)
+            if needed != written[number]:
+                functions[number] = _function(block, catalogue, handovers)
+                written[number] = needed
 
 
-def _rewritten(
-    block: Block, catalogue: Catalogue, handovers: Handovers, seen: object, function: Function
-) -> tuple[object, Function]:
-    """The function once more if what it must hand on has changed since `seen`."""
+Needed = tuple[frozenset[Register], tuple[frozenset[Register], ...]]
+
+
+def _needed(function: Function, handovers: Handovers) -> Needed:
+    """What a function must hand on: at its end, and to each of those it calls."""
     callees = sorted({item.function for item in function.body if isinstance(item, Call)})
-    entries = [(callee, frozenset(handovers.entry[callee])) for callee in callees]
-    needed = (frozenset(handovers.exit[function.name]), entries)
-    return needed, function if needed == seen else _function(block, catalogue, handovers)
+    entries = tuple(frozenset(handovers.entry[callee]) for callee in callees)
+    return frozenset(handovers.exit[function.name]), entries
 
 
 def _reads_shared(function: Function) -> bool:

@@ -371,7 +371,7 @@ def program(random: Random, number: int) -> str:
     """An FB of this number with its instance, both complete."""
     w = Writer(random)
     w.put("CLR", "SAVE", f"L {constant(random, 'd')}", f"L {constant(random, 'd')}", "LAR1 P#0.0")
-    body(w, random.randint(3, 9))
+    body(w, random.randint(3, 7))
     w.put("T #one", "TAK", "T #two", "L STW", "T #stw")
     names = [f"{letter}{place}" for letter, count in COUNTS.items() for place in range(count)]
     declared = "".join(f"  {name} : {VARIABLES[name[0]]} ;\n" for name in names)
