@@ -351,7 +351,7 @@ def check(folder: Path, update: bool) -> None:
 @click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
 @click.option("--target", metavar="T", help="Import rules of this target; default what the text looks like.")
 def lint(files: tuple[Path, ...], target: str | None) -> None:
-    """Check SCL, S7-300 STL and S7-200 SMART sources: syntax, types, and what STEP 7, TIA and Micro/WIN refuse at import.
+    """Check SCL, S7-300 STL and S7-200 SMART sources: syntax, types, what STEP 7, TIA and Micro/WIN refuse at import.
 
     Blocks may use blocks of other FILEs.
 

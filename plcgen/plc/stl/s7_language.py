@@ -108,6 +108,8 @@ AREAS: Mapping[Language, Mapping[str, str]] = {
 """Letters of an operand, and the area they mean."""
 
 _WORD = re.compile(rf"(?m){COMMENT}|'[^'\r\n]*'|(?:^|[:;])[ \t]*([A-Za-z]+\(?)(?=[^0-9A-Za-z_:]|$)")
+# An input or a peripheral address: E 0.0, EW 2, PAW 256.
+_GERMAN_ADDRESS = re.compile(r"(?im)^[^/'\"\n]*(?<![#\".\w])(?:P?E[BWD]?|PA[BWD])[ \t]*[0-9]+(?:\.[0-7])?[ \t]*;")
 
 
 def english(word: str, language: Language) -> str:
@@ -116,7 +118,9 @@ def english(word: str, language: Language) -> str:
 
 
 def detect_language(source: SourceText) -> Language:
-    """Whichever set has more words of its own in the text; English when it has none of either."""
+    """Whichever set has more words of its own in the text; where neither has, addresses tell."""
     words = [match[1].upper() for match in _WORD.finditer(source.text) if match[1]]
     german, own = (sum(word in _OWN[language] for word in words) for language in (Language.GERMAN, Language.ENGLISH))
+    if german == own:
+        return Language.GERMAN if _GERMAN_ADDRESS.search(source.text) else Language.ENGLISH
     return Language.GERMAN if german > own else Language.ENGLISH

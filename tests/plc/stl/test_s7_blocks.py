@@ -327,6 +327,11 @@ def test_german_mnemonics() -> None:
     assert machine.variable("Q8.0").get() is True
 
 
+def test_german_addresses_tell_where_no_mnemonic_does() -> None:
+    assert detect_language(SourceText("f.awl", "      L     EW 2;\n      T     AW 4;\n")) is Language.GERMAN
+    assert detect_language(SourceText("f.awl", "      L     #e1;\n      L     1.0e5;\n // E 0.0;")) is Language.ENGLISH
+
+
 def test_symbols_name_blocks_and_addresses() -> None:
     machine = machine_of(
         """
