@@ -70,6 +70,13 @@ def scope_of(block: Block, catalogue: Catalogue, builder: Builder) -> Scope:
     declarations = catalogue.declarations(declaration)
     temps = declared(declaration, SectionKind.TEMP)
     _refuse(block, declaration)
+    for item in (*temps, *_own_parameters(declaration)):
+        owner = catalogue.owner(declarations.type_of(item.type))
+        if owner is not None:
+            message = (
+                f"{item.name} is an instance of {owner.name}, which must outlast a call; declare it in VAR of an FB"
+            )
+            raise block.source.error(message, item.span)
     structure = declarations.arranged(f"L of {block.name}", [declarations.members(temps)], declaration.span)
     scope = Scope(block.source, declarations, catalogue.interface(declaration), structure)
     in_frame = declaration.kind is BlockKind.OB or _needs_addresses(block.statements)
@@ -83,6 +90,11 @@ def scope_of(block: Block, catalogue: Catalogue, builder: Builder) -> Scope:
     else:
         _declare_parameters(scope, declaration, builder)
     return scope
+
+
+def _own_parameters(declaration: syntax.Block) -> list[syntax.Declaration]:
+    """Of an FC; those of an FB lie in its instance."""
+    return [] if declaration.kind is BlockKind.FB else declared(declaration, *PARAMETERS)
 
 
 def _home(builder: Builder, place: Cell, name: str) -> Place:

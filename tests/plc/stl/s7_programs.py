@@ -136,8 +136,9 @@ def comparison(w: Writer) -> None:
 def conversion(w: Writer) -> None:
     kind = w.random.randrange(5)
     if kind == 0:
-        w.load("r")
-        w.put(w.choose("RND TRUNC RND+ RND-"))
+        number = w.random.choice([w.random.randint(-9, 9) + 0.5, w.random.uniform(-99, 99)])
+        w.put(f"L {number:.6e}", w.choose("RND TRUNC RND+ RND-"), f"T {w.variable('d')}")
+        w.two = w.one
     elif kind == 1:
         w.load("i")
         w.put("ITD", "DTR")
@@ -203,7 +204,7 @@ def bit(w: Writer) -> str:
 def logic(w: Writer) -> None:
     for _ in range(w.random.randint(1, 4)):
         choice = w.random.random()
-        if choice < 0.65 or w.depth > 3:
+        if choice < 0.5 or w.depth > 3:
             w.put(f"{w.choose('A AN O ON X XN')} {bit(w)}")
         elif choice < 0.8:
             w.depth += 1

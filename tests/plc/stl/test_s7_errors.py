@@ -188,6 +188,11 @@ def test_statements(text: str, expected: str) -> None:
 
 
 BLOCKS = [
+    (
+        "FUNCTION_BLOCK FB 1\nBEGIN\nEND_FUNCTION_BLOCK\nFUNCTION FC 1 : VOID\nVAR_TEMP\n m : FB 1;\nEND_VAR\nBEGIN\n"
+        "END_FUNCTION",
+        "6:2: m is an instance of FB1, which must outlast a call; declare it in VAR of an FB",
+    ),
     ("FUNCTION FC 1\nBEGIN\nEND_FUNCTION", "2:1: : expected, found BEGIN; write the type of the result, or : VOID"),
     ("FUNCTION_BLOCK FB 1\nVAR\n x : REAL\nEND_VAR\nBEGIN\nEND_FUNCTION_BLOCK", "3:10: ; expected before END_VAR"),
     (
