@@ -108,7 +108,7 @@ def _shown(code: Code, area: Area | str) -> str:
 def area_of(code: Code, operand: syntax.Operand, letters: str, data_block: str = "") -> tuple[Area | str, int]:
     """An area of memory and its bits. Raises SourceError when the data block is not known."""
     if letters == "L":
-        return FRAME, code.scope.temporaries.bits
+        return FRAME, code.scope.local_bits
     if letters not in ("DB", "DI"):
         return _AREAS[letters], AREA_BYTES * BYTE_BITS
     name = data_block or (code.selected.db if letters == "DB" else code.selected.di)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from plcgen.plc.addresses import SIZES
 from plcgen.plc.builder import Builder
 from plcgen.plc.core import FRAME, INSTANCE, Cell, Place
 from plcgen.plc.scl import syntax
@@ -25,20 +26,26 @@ from plcgen.plc.stl.s7_syntax import (
     Variable,
 )
 from plcgen.plc.suggest import did_you_mean
-from plcgen.plc.types import Elementary, Structure, Type
+from plcgen.plc.types import BYTE_BITS, WORD_BITS, Elementary, Structure, Type, align
 
+MOST_LOCAL_BYTES = 256
+"""Of one block."""
 RESULT = "RET_VAL"
 """The name of what a FUNCTION returns."""
 
 
 @dataclass
 class Scope:
-    """Places by name in lower case; `parameters` and `results` of an FC in the order of a call."""
+    """Places by name in lower case; `parameters` and `results` of an FC in the order of a call.
+
+    `local_bits` of L are there: VAR_TEMP, and what a compiler of LAD or FBD has put behind it.
+    """
 
     source: SourceText
     declarations: Declarations
     interface: Interface
     temporaries: Structure
+    local_bits: int = 0
     places: dict[str, Place] = field(default_factory=dict)
     names: list[str] = field(default_factory=list)
     parameters: list[Place] = field(default_factory=list)
@@ -81,7 +88,7 @@ def scope_of(block: Block, catalogue: Catalogue, builder: Builder) -> Scope:
     scope = Scope(block.source, declarations, catalogue.interface(declaration), structure)
     in_frame = declaration.kind is BlockKind.OB or _needs_addresses(block.statements)
     if in_frame or not all(isinstance(member.type, Elementary) for member in structure.fields):
-        builder.frame_bits = structure.bits
+        builder.frame_bits = scope.local_bits = max(structure.bits, _last_bit(block.statements))
     for item, member in zip(temps, structure.fields, strict=True):
         place = Cell(FRAME, member.bit, member.type)
         scope.declare(item, place if in_frame else _home(builder, place, item.name))
@@ -150,6 +157,13 @@ def _fresh(builder: Builder, kind: Type, name: str) -> Place:
 def _needs_addresses(statements: tuple[Statement, ...]) -> bool:
     """Whether something may look at temporaries by their address."""
     return any(map(_is_address, _operands(statements)))
+
+
+def _last_bit(statements: tuple[Statement, ...]) -> int:
+    """The end of the last word of L that is named by its address."""
+    named = [item for item in _operands(statements) if isinstance(item, Absolute) and item.area == "L"]
+    ends = [item.byte * BYTE_BITS + item.bit + SIZES[item.size].bits for item in named if item.byte < MOST_LOCAL_BYTES]
+    return align(max(ends, default=0), WORD_BITS)
 
 
 def _operands(statements: tuple[Statement, ...]) -> Iterator[Operand | Argument]:

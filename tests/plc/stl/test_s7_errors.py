@@ -112,7 +112,7 @@ STATEMENTS = [
     ("L MW 1.0;", "1:3: MW 1.0: a bit needs .0 to .7, a byte, word or double word has none"),
     ("L M 0.8;", "1:3: M 0.8 does not exist; bytes go to 65535, bits to 7"),
     ("A MW 0;", "1:3: MW 0 is WORD, A takes a bit"),
-    ("L LW 2;", "1:3: LW 2 lies outside the 2 bytes of VAR_TEMP of FB1"),
+    ("L LW 256;", "1:3: LW 256 lies outside the 2 bytes of VAR_TEMP of FB1"),
     ("L DIW 100;", "1:3: DIW 100 lies outside the 32 bytes of the instance"),
     ("LAR2 P#M 0.0;", "1:1: AR2 holds the place of the instance in a FUNCTION_BLOCK; use AR1"),
     ("OPN DI 5;", "1:1: the register DI holds the instance in a FUNCTION_BLOCK; use OPN DB"),
