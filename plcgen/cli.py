@@ -362,7 +362,7 @@ def check(folder: Path, update: bool) -> None:
 @click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
 @click.option("--target", metavar="T", help="Import rules of this target; default what the text looks like.")
 def lint(files: tuple[Path, ...], target: str | None) -> None:
-    """Check SCL and S7-200 SMART sources: syntax, types, and what STEP 7, TIA and Micro/WIN refuse or drop at import.
+    """Check SCL, S7-300 STL and S7-200 SMART sources: syntax, types, what STEP 7, TIA and Micro/WIN refuse at import.
 
     Blocks may use blocks of other FILEs.
 
@@ -402,7 +402,7 @@ def run(
     watch: tuple[str, ...],
     output: Path | None,
 ) -> None:
-    """Execute any block of an SCL or S7-200 SMART source and print its variables as CSV, one row a scan.
+    """Execute any block of an SCL, S7-300 STL or S7-200 SMART source and print its variables as CSV, one row a scan.
 
     An FB runs on the instance that FILE declares for it, else on a fresh one. Inputs keep their value.
     M0.0, MW10 and members of data blocks can be set and watched too, V memory of a SMART as VD100 or VD100:REAL.

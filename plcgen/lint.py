@@ -8,6 +8,7 @@ from pathlib import Path
 
 from plcgen.errors import Location, SourceError
 from plcgen.lint_smart import smart_findings
+from plcgen.lint_stl import stl_findings
 from plcgen.plc.importrules.finding import Finding
 from plcgen.plc.importrules.s7_scl import findings as import_findings
 from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect, detect_dialect
@@ -15,7 +16,8 @@ from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block
 from plcgen.plc.source import SourceText, Span, read_source
-from plcgen.plc.stl.detection import is_smart
+from plcgen.plc.stl.detection import is_s7_stl, is_smart
+from plcgen.plc.stl.s7_language import STL
 from plcgen.targets import SMART, TARGETS
 
 DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
@@ -38,12 +40,17 @@ def lint_files(paths: Sequence[Path], target: str | None = None) -> list[Finding
     """
     sources = [read_source(path) for path in paths]
     smart = [source for source in sources if target == SMART.name or (target is None and is_smart(source))]
-    files = [_read(source, target) for source in sources if source not in smart]
+    stl = [source for source in sources if source not in smart and _is_stl(source, target)]
+    files = [_read(source, target) for source in sources if source not in smart and source not in stl]
     found = [finding for file in files for finding in file.findings]
     found += [finding for dialect in DIALECTS.values() for finding in _type_errors(files, dialect)]
-    found += smart_findings(smart)
+    found += [*smart_findings(smart), *stl_findings(stl)]
     order = {source.name: number for number, source in enumerate(sources)}
     return sorted(found, key=lambda finding: (order[finding.location.file], *_position(finding.location)))
+
+
+def _is_stl(source: SourceText, target: str | None) -> bool:
+    return TARGETS[target].dialect == STL.name if target else is_s7_stl(source)
 
 
 def _position(location: Location) -> tuple[int, int]:

@@ -25,7 +25,9 @@ from plcgen.plc.scl.lowering_declarations import CALLABLE, Catalogue, Interface,
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.scl.syntax import Block, BlockKind, SectionKind
 from plcgen.plc.source import SourceText, Span, read_source
-from plcgen.plc.stl.detection import is_smart
+from plcgen.plc.stl import s7_lowering, s7_parser
+from plcgen.plc.stl.detection import is_s7_stl, is_smart
+from plcgen.plc.stl.s7_registers import SHARED
 from plcgen.plc.types import CHAR, Elementary, Family, String, Type
 from plcgen.run_smart import smart_run
 from plcgen.trajectory import Trajectory
@@ -68,7 +70,7 @@ class _Subject:
 def run_file(order: Order, progress: Callable[[str], None]) -> Outcome:
     """Raises SourceError for a file that cannot be run, PlcgenError for names and values that do not fit."""
     source = read_source(order.file)
-    subject = _smart(source, order) if is_smart(source) else _scl(source, order)
+    subject = _subject_of(source, order)
     for name, text in order.inputs:
         variable = subject.variable(name)
         variable.set(parse_value(text, variable, name))
@@ -120,6 +122,11 @@ def _excerpt(fault: FaultRecord) -> str:
 # --------------------------------------------------------------------------------------------------------- subject
 
 
+def _subject_of(source: SourceText, order: Order) -> _Subject:
+    make = _smart if is_smart(source) else _stl if is_s7_stl(source) else _scl
+    return make(source, order)
+
+
 def _smart(source: SourceText, order: Order) -> _Subject:
     """A block of an S7-200 SMART: one call a period, interrupts and pulses between."""
     run = smart_run(source, order.block, order.period)
@@ -130,6 +137,11 @@ def _scl(source: SourceText, order: Order) -> _Subject:
     dialect = detect_dialect(source)
     blocks = parse(source, dialect)
     return _subject(lower(blocks, dialect), blocks, order)
+
+
+def _stl(source: SourceText, order: Order) -> _Subject:
+    blocks = s7_parser.parse(source)
+    return _subject(s7_lowering.lower(blocks), [block.declaration for block in blocks], order, outputs_given=True)
 
 
 def _timed(machine: S7300, order: Order, scan: Callable[[int], object]) -> Callable[[int], object]:
@@ -143,12 +155,14 @@ def _timed(machine: S7300, order: Order, scan: Callable[[int], object]) -> Calla
     return timed
 
 
-def _subject(program: Program, blocks: Sequence[Block], order: Order) -> _Subject:
+def _subject(program: Program, blocks: Sequence[Block], order: Order, outputs_given: bool = False) -> _Subject:
+    """`outputs_given`: outputs of an FC are arguments too, as in STL, where they keep what they held."""
     name = _function_name(program, order)
     catalogue = Catalogue(blocks, {})
     interface = catalogue.interface(next(b for b in blocks if catalogue.name_of(b) == name and b.kind in CALLABLE))
-    make = {BlockKind.FB: _instance, BlockKind.FC: _function, BlockKind.OB: _organization}[interface.kind]
-    return make(program, interface, order)
+    if interface.kind is BlockKind.FC:
+        return _function(program, interface, order, outputs_given)
+    return {BlockKind.FB: _instance, BlockKind.OB: _organization}[interface.kind](program, interface, order)
 
 
 def _function_name(program: Program, order: Order) -> str:
@@ -186,14 +200,17 @@ def _instance(program: Program, interface: Interface, order: Order) -> _Subject:
     return _Subject(_timed(machine, order, scan), variable, _outputs(interface), machine.faults)
 
 
-def _function(program: Program, interface: Interface, order: Order) -> _Subject:
+def _function(program: Program, interface: Interface, order: Order, outputs_given: bool) -> _Subject:
     """An FC: arguments wait in a table between scans, what it hands back goes into the same table."""
     machine = S7300(program)
     result = [Parameter(interface.name, SectionKind.OUTPUT, interface.result)] if interface.result else []
     parameters = {p.name.casefold(): p for p in (*result, *interface.parameters)}
     values = {key: _initial(parameter) for key, parameter in parameters.items()}
-    taken = [p.name.casefold() for p in interface.of_kinds(SectionKind.INPUT, SectionKind.IN_OUT)]
-    given = [*result, *interface.of_kinds(SectionKind.OUTPUT), *interface.of_kinds(SectionKind.IN_OUT)]
+    inputs, both = interface.of_kinds(SectionKind.INPUT), interface.of_kinds(SectionKind.IN_OUT)
+    outputs_of = interface.of_kinds(SectionKind.OUTPUT)
+    arguments = [*result, *inputs, *outputs_of, *both] if outputs_given else [*inputs, *both]
+    taken = [p.name.casefold() for p in arguments]
+    given = [*result, *outputs_of, *both]
 
     def scan(_number: int) -> None:
         handed = machine.call(interface.name, arguments=[values[key] for key in taken])
@@ -259,7 +276,7 @@ def _head(name: str) -> str:
 
 def _global(machine: Machine, name: str, interface: Interface, own: Sequence[str]) -> Variable:
     """A variable outside the block: an address such as M0.0, or a member of a data block."""
-    blocks = [block for block in machine.program.data_blocks if block != INSTANCE]
+    blocks = [block for block in machine.program.data_blocks if block not in (INSTANCE, SHARED)]
     if _is_address(name) or _head(name).casefold() in {block.casefold() for block in blocks}:
         return machine.variable(name)
     raise PlcgenError(f"{interface.name} has no variable {name}; {_choice(name, [*own, *blocks])}")

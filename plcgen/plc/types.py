@@ -48,6 +48,9 @@ class Elementary:
     def __str__(self) -> str:
         return self.name
 
+    def __hash__(self) -> int:
+        return hash(self.name)
+
     @cached_property
     def codec(self) -> Struct:
         return Struct(">" + self.code)

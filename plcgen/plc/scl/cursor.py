@@ -61,6 +61,11 @@ class Cursor:
     def accept_kind(self, *kinds: TokenKind) -> Token | None:
         return self.advance() if self.at_kind(*kinds) else None
 
+    def go_on_at(self, offset: int) -> None:
+        """What lies before the offset was read by other rules."""
+        self._ahead.clear()
+        self._offset = offset
+
     def rest_of_line(self) -> Token:
         """What follows on this line as one piece of free text, blanks around it removed."""
         self._ahead.clear()

@@ -34,6 +34,7 @@ CLOSERS = frozenset(word for word in STRUCTURE_WORDS if word.startswith("END_"))
     *SECTION_WORDS,
     *("BEGIN", "CONST", "ELSE", "ELSIF", "END_REGION", "UNTIL"),
 }
+_NUMBERED = ("FB", "UDT")
 _RETENTION = {"RETAIN": True, "NON_RETAIN": False, "DB_SPECIFIC": False}
 
 # ------------------------------------------------------------------------------------------------------- sections
@@ -230,6 +231,9 @@ def _named_type(tokens: Cursor) -> TypeSpec:
     token = tokens.expect_kind("a type", TokenKind.NAME, TokenKind.GLOBAL)
     if token.kind is TokenKind.GLOBAL:
         return NamedType(token.span, token.name)
+    if token.word in _NUMBERED and tokens.current.text.isdigit():
+        number = tokens.advance()
+        return NamedType(tokens.span_from(token), token.text + number.text)
     _refuse_type(tokens, token)
     if token.word == "STRING":
         return _string(tokens, token)

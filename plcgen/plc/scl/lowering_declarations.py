@@ -12,7 +12,8 @@ from plcgen.plc.scl import syntax
 from plcgen.plc.scl.dialects import PARAMETER_TYPES, UNSUPPORTED_TYPES
 from plcgen.plc.scl.functions import is_absent
 from plcgen.plc.scl.lowering_types import Declarations
-from plcgen.plc.scl.syntax import BlockKind, SectionKind
+from plcgen.plc.scl.syntax import BlockKind, NamedType, SectionKind
+from plcgen.plc.scl.walk import find
 from plcgen.plc.source import SourceText
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import Array, Structure, Type
@@ -156,6 +157,11 @@ class Catalogue:
         """The FB whose instance data this type is."""
         block = self.find(kind.name, BlockKind.FB) if isinstance(kind, Structure) and kind.name else None
         return self.interface(block) if block else None
+
+    def is_part(self, interface: Interface) -> bool:
+        """Whether some block declares a multi-instance of an FB."""
+        specs = (spec for block in self.blocks.values() for spec in find((block.sections, block.structure), NamedType))
+        return any(self.absolute(spec.name).casefold() == interface.name.casefold() for spec in specs)
 
     def owner(self, kind: Type) -> Interface | None:
         """The FB of an instance or of an ARRAY of instances."""

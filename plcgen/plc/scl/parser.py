@@ -48,11 +48,12 @@ def _block(tokens: Cursor) -> Block:
 
 def _code_block(tokens: Cursor, keyword: Token, block: Block) -> Block:
     """FB, FC and OB: header, sections, statements."""
-    block = _with_interface(tokens, replace(block, header=header(tokens)))
+    block = with_interface(tokens, replace(block, header=header(tokens)))
     return replace(block, body=_body(tokens, keyword))
 
 
-def _with_interface(tokens: Cursor, block: Block) -> Block:
+def with_interface(tokens: Cursor, block: Block) -> Block:
+    """Adds the sections that stand next."""
     declared = interface(tokens)
     return replace(block, constants=declared.constants, sections=declared.sections)
 
@@ -75,7 +76,7 @@ def _function(tokens: Cursor, keyword: Token, block: Block) -> Block:
 # ----------------------------------------------------------------------------------------------------- data blocks
 
 
-def _data_block(tokens: Cursor, keyword: Token, block: Block) -> Block:
+def data_block(tokens: Cursor, keyword: Token, block: Block) -> Block:
     """Shared (a structure) or instance (the name of its FB or UDT, before or behind the header lines)."""
     instance_of = _instance_of(tokens)
     block = replace(block, header=header(tokens))
@@ -134,7 +135,8 @@ def _values(tokens: Cursor, keyword: Token) -> tuple[Statement, ...]:
 # ----------------------------------------------------------------------------------------------------------- types
 
 
-def _type(tokens: Cursor, _keyword: Token, block: Block) -> Block:
+def user_type(tokens: Cursor, _keyword: Token, block: Block) -> Block:
+    """A UDT: header, one STRUCT."""
     block = replace(block, header=header(tokens))
     tokens.accept(":")
     structure = struct(tokens)
@@ -148,6 +150,6 @@ _KINDS: dict[str, Callable[[Cursor, Token, Block], Block]] = {
     "FUNCTION_BLOCK": _code_block,
     "FUNCTION": _function,
     "ORGANIZATION_BLOCK": _code_block,
-    "DATA_BLOCK": _data_block,
-    "TYPE": _type,
+    "DATA_BLOCK": data_block,
+    "TYPE": user_type,
 }
