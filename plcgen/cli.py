@@ -18,7 +18,7 @@ from plcgen.errors import Fault, PlcgenError
 if TYPE_CHECKING:
     from plcgen.check.verdict import Check, Verdict
     from plcgen.job import Job
-    from plcgen.plan import Plan
+    from plcgen.plan import Comparison, Derivation, Plan
     from plcgen.profile.constants import ConstantGroup
 
 FAILED, BAD_INPUT = 1, 2
@@ -169,15 +169,14 @@ def derive(job: Path, as_json: bool) -> None:
     if as_json:
         _print_json(_derivation_json(read, derivation))
         return
-    terminal.show(_legs_table(read, derivation.stretches))
+    terminal.show(_legs_table(read, derivation))
     for group in derivation.tables:
         terminal.show(_constants_table(group))
     for comparison in derivation.comparisons:
-        name, *figures = comparison.headings
-        terminal.show(terminal.Table(comparison.title, (name, *(f">{f}" for f in figures)), list(comparison.rows)))
+        terminal.show(_comparison_table(comparison))
 
 
-def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
+def _derivation_json(job: Job, derivation: Derivation) -> dict[str, object]:
     legs = [vars(stretch) for stretch in derivation.stretches]
     tables = [
         {"title": group.title, "constants": [vars(constant) for constant in group.constants]}
@@ -194,17 +193,23 @@ def _derivation_json(job: Job, derivation: Any) -> dict[str, object]:
     return {**head, "legs": legs, "tables": tables, "comparisons": comparisons}
 
 
-def _legs_table(job: Job, legs: Iterable[Any]) -> terminal.Table:
-    unit = job.length_unit
+def _legs_table(job: Job, derivation: Derivation) -> terminal.Table:
+    unit, legs = job.length_unit, derivation.stretches
     rows = [(leg.name, *map(_number, (leg.duration, leg.travel, leg.end_velocity))) for leg in legs]
     total = ("total", _number(sum(leg.duration for leg in legs)), _number(sum(leg.travel for leg in legs)), "")
     headings = ("leg", ">duration s", f">travel {unit}", f">end velocity {unit}/s")
-    return terminal.Table(f"Trip of {job.name}", headings, [*rows, total])
+    return terminal.Table(f"{derivation.title} of {job.name}", headings, [*rows, total])
 
 
 def _constants_table(group: ConstantGroup) -> terminal.Table:
     rows = [(c.name, _number(c.value), c.unit, c.comment, c.origin) for c in group.constants]
     return terminal.Table(group.title, ("constant", ">value", "unit", "meaning", "equation"), rows)
+
+
+def _comparison_table(comparison: Comparison) -> terminal.Table:
+    name, *figures = comparison.headings
+    rows = [tuple(cell if isinstance(cell, str) else _number(cell) for cell in row) for row in comparison.rows]
+    return terminal.Table(comparison.title, (name, *(f">{figure}" for figure in figures)), rows)
 
 
 def _number(value: float) -> str:

@@ -34,7 +34,7 @@ class Comparison:
 
     title: str
     headings: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[str | float, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,7 @@ class Derivation:
     stretches: tuple[Stretch, ...]
     tables: tuple[ConstantGroup, ...]
     comparisons: tuple[Comparison, ...] = ()
+    title: str = "Moves"
 
 
 @dataclass(frozen=True)

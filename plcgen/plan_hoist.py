@@ -49,7 +49,7 @@ class HoistPlan(Plan):
             for name, transition in zip(names, self.trip.transitions, strict=True)
         )
         legs = tuple(Stretch(leg.name, leg.duration, leg.travel, leg.end_velocity) for leg in self.trip.legs)
-        return Derivation(legs, transitions + hoist_constants(self.job, self.trip))
+        return Derivation(legs, transitions + hoist_constants(self.job, self.trip), title="Trip")
 
     def outputs(self, target: str) -> tuple[OutputFile, ...]:
         return output_files(self.job, target)

@@ -106,7 +106,7 @@ def test_new_writes_a_two_axis_job_that_derives(tmp_path: Path) -> None:
     # t1 = a/jerk, t2 = v/a - a/jerk; full speed from v (v/a + a/jerk) on, full acceleration from 2 a^3/jerk^2 on.
     assert (constants["T1"], constants["T2"]) == pytest.approx((1.0, 0.5))
     assert (constants["S_FULL"], constants["S_JERK"]) == pytest.approx((3.75, 2.0))
-    assert "Trip of Table" in plcgen("derive", str(job)).output
+    assert "Moves of Table" in plcgen("derive", str(job)).output
 
 
 def test_derive_shows_the_phases_of_the_main_shaft() -> None:

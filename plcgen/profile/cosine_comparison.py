@@ -9,7 +9,9 @@ from numpy.polynomial import Polynomial
 
 from plcgen.profile.cosine_fit import CENTRED, DERIVATIVES, FITS, HALF_SINE, Law, error, fit, is_monotone
 
-Rows = tuple[tuple[str, ...], ...]
+Cell = str | float
+Rows = tuple[tuple[Cell, ...], ...]
+NOTHING = 1e-12
 
 
 def comparisons(seed: int) -> Iterator[tuple[str, tuple[str, ...], Rows]]:
@@ -29,7 +31,7 @@ def _end(law: Law) -> str:
     return "pi" if law is HALF_SINE else "1"
 
 
-def _rows(law: Law, seed: int) -> Iterator[tuple[str, ...]]:
+def _rows(law: Law, seed: int) -> Iterator[tuple[Cell, ...]]:
     for name in FITS:
         found = fit(name, law, seed)
         yield (name, *_figures(law, found.raw, found.raw_coefficients))
@@ -37,16 +39,21 @@ def _rows(law: Law, seed: int) -> Iterator[tuple[str, ...]]:
             yield (f"{name}, repaired", *_figures(law, found.repaired, found.coefficients))
 
 
-def _figures(law: Law, polynomial: Polynomial, coefficients: tuple[float, ...]) -> tuple[str, ...]:
+def _figures(law: Law, polynomial: Polynomial, coefficients: tuple[float, ...]) -> tuple[Cell, ...]:
     """Short of the whole change of speed (s) or distance (f), and the slope at the end against the largest."""
     start, end, wanted = float(polynomial(0.0)), float(polynomial(1.0)), -1.0 if law is HALF_SINE else 1.0
     short = (1.0 - (start - end) / (1.0 - wanted)) if law is HALF_SINE else 1.0 - end
     largest = pi if law is HALF_SINE else pi / 2
     slope = float(polynomial.deriv()(1.0)) / largest * (-1.0 if law is HALF_SINE else 1.0)
     return (
-        *(f"{value:.9g}" for value in coefficients),
-        *(f"{error(law, polynomial, order):.2e}" for order in range(DERIVATIVES)),
-        f"{short + 0.0:.2e}",
-        f"{slope + 0.0:.2e}",
+        *coefficients,
+        *(_short(error(law, polynomial, order)) for order in range(DERIVATIVES)),
+        _short(short),
+        _short(slope),
         "yes" if is_monotone(law, polynomial) else "no",
     )
+
+
+def _short(value: float) -> float:
+    """Three digits; what rounding leaves of 0 is 0."""
+    return float(f"{value:.3g}") if abs(value) > NOTHING else 0.0
