@@ -1,7 +1,7 @@
 """Seeded faults in STL for the S7-200 SMART: every change of one word that could be somebody's slip of the finger.
 
 Used by test_seeded_faults_stl.py; run as a program it tries all of them and lists the survivors:
-    python -m tests.check.seeded_faults_stl [--mode table]
+    python -m tests.check.seeded_faults_stl [--case table]
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from functools import cache, partial
 from plcgen import pipeline
 from plcgen.errors import PlcgenError
 from plcgen.job import parse_job
-from plcgen.plan_two_axis import TwoAxisPlan
-from plcgen.render.two_axis_memory import memory_map
+from plcgen.plan import Plan
+from plcgen.render import cosine_memory, two_axis_memory
+from tests.check import seeded_faults
 
-JOB = """
+TWO_AXIS = """
 name = "Small"
 method = "two-axis"
 targets = ["s7-200-smart"]
@@ -51,6 +52,14 @@ x = 0.012
 y = 0.3497
 """
 
+JOBS = {
+    "interrupt": TWO_AXIS.format(mode="interrupt"),
+    "table": TWO_AXIS.format(mode="table"),
+    "ramp": seeded_faults.RAMP.replace('"tia-scl"', '"s7-200-smart"'),
+    "move": seeded_faults.MOVE.replace('"tia-scl"', '"s7-200-smart"'),
+}
+MEMORY_MAPS = {"two-axis": two_axis_memory.memory_map, "cosine": cosine_memory.memory_map}
+
 SWAPS = {
     "LD": "LDN", "LDN": "LD", "A": "AN", "AN": "A", "ON": "O", "S": "R", "R": "S", "INCD": "DECD", "INCB": "DECB",
     "+R": "-R", "-R": "+R", "*R": "/R", "/R": "*R", "+D": "-D", "-D": "+D", "*D": "/D", "/D": "*D",
@@ -77,41 +86,42 @@ class SeededFault:
 
 
 @cache
-def plan(mode: str) -> TwoAxisPlan:
-    return TwoAxisPlan.of(parse_job(JOB.format(mode=mode), "small.toml"))
+def plan(case: str) -> Plan:
+    return pipeline.prepare(parse_job(JOBS[case], "small.toml"))
 
 
 @cache
-def joined(mode: str) -> str:
-    return pipeline.sources(plan(mode), "s7-200-smart")["Small.awl"].decode("ascii")
+def joined(case: str) -> str:
+    return pipeline.sources(plan(case), "s7-200-smart")["Small.awl"].decode("ascii")
 
 
-def all_faults(mode: str) -> list[SeededFault]:
+def all_faults(case: str) -> list[SeededFault]:
     """Every fault, in the order of the text; MAIN is an example and left alone."""
-    lines = joined(mode).split("\r\n")
+    lines = joined(case).split("\r\n")
     block = network = ""
     found: list[SeededFault] = []
     for row in range(lines.index("END_ORGANIZATION_BLOCK"), len(lines)):
         bare = lines[row].split("//")[0].rstrip()
         if heading := re.match(r"(?:SUBROUTINE|INTERRUPT)_BLOCK Small_(\w+)|Network (\d+)", bare):
             block, network = heading[1] or block, heading[2] or ""
-        was = spoken(bare, mode)
+        was = spoken(bare, case)
         found += [
-            SeededFault(row, line, f"{block} {network} | {was} -> {spoken(line, mode) if line else 'nothing'}")
+            SeededFault(row, line, f"{block} {network} | {was} -> {spoken(line, case) if line else 'nothing'}")
             for line in changed(bare)
         ]
     return found
 
 
-def spoken(line: str, mode: str) -> str:
+def spoken(line: str, case: str) -> str:
     """A line with the names of its variables, single blanks between words."""
-    return " ".join(names(mode).get(word, word) for word in line.replace(",", "").split())
+    return " ".join(names(case).get(word, word) for word in line.replace(",", "").split())
 
 
 @cache
-def names(mode: str) -> dict[str, str]:
+def names(case: str) -> dict[str, str]:
     """The names of addresses."""
-    return {address: name for name, address in memory_map(plan(mode).job).items()}
+    job = plan(case).job
+    return {address: name for name, address in MEMORY_MAPS[job.method](job).items()}
 
 
 def changed(line: str) -> Iterator[str | None]:
@@ -136,27 +146,27 @@ def changed(line: str) -> Iterator[str | None]:
         yield None
 
 
-def survives(mode: str, fault: SeededFault) -> bool:
+def survives(case: str, fault: SeededFault) -> bool:
     """True when verification finds nothing wrong with the faulty program."""
     try:
         return pipeline.verify(
-            plan(mode), "s7-200-smart", {"Small.awl": fault.apply(joined(mode)).encode()}, None, True
+            plan(case), "s7-200-smart", {"Small.awl": fault.apply(joined(case)).encode()}, None, True
         ).ok
     except PlcgenError:
         return False
 
 
-def survivors(mode: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
+def survivors(case: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
     """Those that nothing caught, as they turn up; in a pool of processes."""
     with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(partial(survives, mode), faults, chunksize=4)
+        verdicts = pool.map(partial(survives, case), faults, chunksize=4)
         yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    parser.add_argument("--mode", default="interrupt")
-    chosen = parser.parse_args().mode
+    parser.add_argument("--case", default="interrupt", choices=JOBS)
+    chosen = parser.parse_args().case
     faults = all_faults(chosen)
     print(len(faults), "faults")
     for fault in survivors(chosen, faults):

@@ -7,6 +7,7 @@ import re
 import pytest
 
 from plcgen.check.two_axis_rig import Table
+from plcgen.plan_two_axis import TwoAxisPlan
 from tests.check.seeded_faults_stl import joined, names, plan
 
 CHECKED = (
@@ -24,7 +25,9 @@ def edited(mode: str, name: str, value: str) -> str:
 
 def error_of(mode: str, text: str) -> tuple[int, int, int]:
     """What the program answers to a start: error, refused, busy."""
-    table = Table(plan(mode).subject({"Small.awl": text.encode()}))
+    found = plan(mode)
+    assert isinstance(found, TwoAxisPlan)
+    table = Table(found.subject({"Small.awl": text.encode()}))
     move = table.model.moves[0]
     table.order(move.x, move.y)
     table.press(0)
