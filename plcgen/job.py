@@ -64,6 +64,12 @@ class Job:
         return self.keys.blocks
 
     @property
+    def mnemonics(self) -> str:
+        """Language of STL instructions, of the method `hoist`."""
+        assert isinstance(self.keys, HoistFile)
+        return self.keys.mnemonics
+
+    @property
     def two_axis(self) -> TwoAxisLimits:
         """Limits of the method `two-axis`."""
         assert isinstance(self.keys, TwoAxisFile)
@@ -137,6 +143,7 @@ def _conflicts(job: Job) -> Iterator[tuple[str, str]]:
     yield from _target_conflicts(job)
     if isinstance(job.keys, HoistFile):
         yield from _hoist_conflicts(job.hoist)
+        yield from _mnemonic_conflicts(job)
         yield from _symbol_conflicts(job)
     else:
         yield from _two_axis_conflicts(job)
@@ -152,6 +159,12 @@ def _hoist_conflicts(hoist: HoistLimits) -> Iterator[tuple[str, str]]:
     if hoist.creep_acceleration > hoist.acceleration:
         limit = f"{hoist.acceleration:g}"
         yield "hoist.creep_acceleration", f"is above acceleration = {limit}; write at most {limit}"
+
+
+def _mnemonic_conflicts(job: Job) -> Iterator[tuple[str, str]]:
+    stl = "s7-300-stl"
+    if job.text.spelling(("mnemonics",)) and stl not in job.targets:
+        yield "mnemonics", f'concerns the target "{stl}" alone; add it to targets, or remove the key'
 
 
 def _two_axis_conflicts(job: Job) -> Iterator[tuple[str, str]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from plcgen.errors import Location, SourceError
+from plcgen.errors import Location, PlcgenError, SourceError
 from plcgen.lint_smart import smart_findings
 from plcgen.plc.importrules.finding import Finding
 from plcgen.plc.importrules.s7_scl import findings as import_findings
@@ -34,8 +34,10 @@ class _File:
 def lint_files(paths: Sequence[Path], target: str | None = None) -> list[Finding]:
     """All findings, file by file. Files of one dialect are one program, whatever their order.
 
-    Raises SourceError only for a file that cannot be opened.
+    Raises SourceError only for a file that cannot be opened, PlcgenError for a target whose language is not known.
     """
+    if target and target != SMART.name and TARGETS[target].dialect not in DIALECTS:
+        raise PlcgenError(f"{target}: its language cannot be linted yet")
     sources = [read_source(path) for path in paths]
     smart = [source for source in sources if target == SMART.name or (target is None and is_smart(source))]
     files = [_read(source, target) for source in sources if source not in smart]

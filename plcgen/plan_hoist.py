@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,20 +10,21 @@ import numpy as np
 from plcgen.check.hoist import Subject, nominal_trace, verify_hoist
 from plcgen.check.hoist_model import HoistModel, TripModel
 from plcgen.check.verdict import TargetVerdict
+from plcgen.errors import PlcgenError
 from plcgen.job import Job
 from plcgen.plan import Derivation, Files, Plan, Progress, Stretch
 from plcgen.plc.core import Program
-from plcgen.plc.scl.dialects import CLASSIC, TIA
+from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
-from plcgen.plc.scl.syntax import Block
-from plcgen.plc.source import decode_source
+from plcgen.plc.source import SourceText, decode_source
 from plcgen.profile.constants import ConstantGroup
 from plcgen.profile.hoist import Trip, creeping_travel, plan_stop, plan_trip
 from plcgen.profile.hoist_constants import hoist_constants, transition_table
 from plcgen.profile.hoist_rules import derive, encoder_step, position_window
 from plcgen.render.files import OutputFile
 from plcgen.render.hoist import block_names, hoist_context, output_files
+from plcgen.render.mnemonics import to_german
 from plcgen.targets import TARGETS
 from plcgen.trajectory import Trajectory
 
@@ -57,6 +58,10 @@ class HoistPlan(Plan):
     def context(self, target: str, verified: bool) -> dict[str, object]:
         return hoist_context(self.job, self.trip, target, verified)
 
+    def finished(self, file: OutputFile, text: str) -> str:
+        is_german = file.name.endswith(".awl") and self.job.mnemonics == "german"
+        return to_german(text) if is_german else text
+
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
@@ -72,18 +77,25 @@ class HoistPlan(Plan):
     def subject(self, target: str, files: Files) -> Subject:
         """The program and the names under which verification finds its block and instance."""
         names = block_names(self.job, target)
-        return Subject(load(target, files), names.fb.strip('"'), names.db.strip('"'), hoist_model(self))
+        block, instance = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
+        return Subject(load(target, files), block, instance, hoist_model(self))
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
     """Parse and lower every source file of a target; the example that calls the blocks comes last."""
     row = TARGETS[target]
-    dialect = DIALECTS[row.dialect]
     names = sorted((name for name in files if name.endswith(row.suffix)), key=lambda name: ("_example" in name, name))
-    blocks: list[Block] = []
-    for name in names:
-        blocks.extend(parse(decode_source(name, files[name]), dialect))
-    return lower(blocks, dialect)
+    sources = [decode_source(name, files[name]) for name in names]
+    return _stl_program(sources) if row.dialect == "stl" else _scl_program(sources, DIALECTS[row.dialect])
+
+
+def _scl_program(sources: Sequence[SourceText], dialect: Dialect) -> Program:
+    return lower([block for source in sources for block in parse(source, dialect)], dialect)
+
+
+def _stl_program(sources: Sequence[SourceText]) -> Program:
+    """The front end of STL goes here: parse each source, lower the blocks of all."""
+    raise PlcgenError(f"{sources[0].name}: STL of the S7-300 cannot be executed yet; write --no-verify")
 
 
 def hoist_model(plan: HoistPlan) -> HoistModel:
