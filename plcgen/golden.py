@@ -18,7 +18,7 @@ from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.errors import PlcgenError
 from plcgen.files import write_files
 from plcgen.job import read_job
-from plcgen.trajectory import Trajectory
+from plcgen.trajectory import Trajectory, disagreements
 
 JOB = "job.toml"
 PHASE = "phase"
@@ -147,20 +147,6 @@ def _regenerate(folder: Path) -> tuple[dict[str, bytes], dict[str, TargetVerdict
 def _deviations(folder: Path, verdicts: Mapping[str, TargetVerdict]) -> Iterator[str]:
     for target, verdict in verdicts.items():
         yield from (f"{folder / target}: {deviation(check)}" for check in verdict.failed)
-
-
-def disagreements(traces: Mapping[str, Trajectory]) -> Iterator[str]:
-    """Where a target's trace parts from that of the first; both compute in the same order, so every bit must agree."""
-    (first, reference), *others = traces.items()
-    for target, trace in others:
-        if len(trace) != len(reference):
-            yield f"{target} and {first} disagree: {len(trace)} rows and {len(reference)}"
-            continue
-        for name, column in reference.columns.items():
-            rows = np.flatnonzero(column != trace[name])
-            if len(rows):
-                row = rows[0]
-                yield f"{target} and {first} disagree: {name} is {trace[name][row]} and {column[row]} in row {row}"
 
 
 def deviation(check: Check) -> str:

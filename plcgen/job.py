@@ -89,6 +89,12 @@ class Job:
         return self.keys.blocks
 
     @property
+    def mnemonics(self) -> str:
+        """Language of STL instructions, of the methods `hoist` and `cosine`."""
+        assert isinstance(self.keys, HoistFile | CosineFile)
+        return self.keys.mnemonics
+
+    @property
     def two_axis(self) -> TwoAxisLimits:
         """Limits of the method `two-axis`."""
         assert isinstance(self.keys, TwoAxisFile)

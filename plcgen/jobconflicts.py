@@ -20,6 +20,7 @@ def conflicts(keys: AnyFile, text: TomlFile) -> Iterator[tuple[str, str]]:
     if isinstance(keys, CosineFile):
         yield from _cosine_conflicts(keys)
     if isinstance(keys, HoistFile | CosineFile):
+        yield from _mnemonic_conflicts(keys, text)
         yield from _symbol_conflicts(keys, text)
     else:
         yield from _two_axis_conflicts(keys.two_axis)
@@ -52,6 +53,12 @@ def _two_axis_conflicts(limits: TwoAxisLimits) -> Iterator[tuple[str, str]]:
             if count > LONGEST_MOVE:
                 most = f"{LONGEST_MOVE} are the most"
                 yield f"two-axis.moves[{index}].{axis}", f"is {count:.0f} pulses; {most}; divide the move"
+
+
+def _mnemonic_conflicts(keys: HoistFile | CosineFile, text: TomlFile) -> Iterator[tuple[str, str]]:
+    stl = "s7-300-stl"
+    if text.spelling(("mnemonics",)) and stl not in keys.targets:
+        yield "mnemonics", f'concerns the target "{stl}" alone; add it to targets, or remove the key'
 
 
 def _cosine_conflicts(keys: CosineFile) -> Iterator[tuple[str, str]]:

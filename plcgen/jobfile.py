@@ -15,6 +15,7 @@ from plcgen.targets import TARGETS
 HIGHEST_CODE_BLOCK = 7999  # FB and FC of the S7-300 CPUs in use; the first generation ends earlier
 HIGHEST_DATA_BLOCK = 16000
 DATA_SUFFIX = "_DB"
+MNEMONICS = ("english", "german")
 
 Name = Annotated[str, NameRule()]
 Factor = Annotated[float, Quantity("", 1.0, 3.0)]
@@ -146,14 +147,22 @@ class JobFile(Table):
     )
 
 
-class HoistFile(JobFile):
+class BlockFile(JobFile):
+    """A job whose sources are blocks of an S7-300."""
+
+    mnemonics: Annotated[str, Choice(MNEMONICS)] = Field(
+        "english", description="language of the instructions in STL for the S7-300, as set in the SIMATIC Manager"
+    )
+
+
+class HoistFile(BlockFile):
     """A job of the method `hoist`."""
 
     hoist: HoistLimits = Field(description="limits of the motion")
     blocks: Blocks = Field(default={}, validate_default=True, description="numbers and names of blocks; optional")
 
 
-class CosineFile(JobFile):
+class CosineFile(BlockFile):
     """A job of the method `cosine`."""
 
     method: Method = Field(description="how the motion is planned", examples=["cosine"])

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from plcgen.check.verdict import TargetVerdict
+from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.job import Job
 from plcgen.plan import Derivation, Files, Plan, Progress
 from plcgen.plan_cosine import cosine_plan
 from plcgen.plan_hoist import HoistPlan
 from plcgen.plan_two_axis import TwoAxisPlan
-from plcgen.trajectory import Trajectory
+from plcgen.trajectory import Trajectory, disagreements
+
+SCL, STL = "s7-300-scl", "s7-300-stl"
 
 METHODS: dict[str, Callable[[Job], Plan]] = {"hoist": HoistPlan.of, "cosine": cosine_plan, "two-axis": TwoAxisPlan.of}
 
@@ -33,8 +35,21 @@ def sources(plan: Plan, target: str, verified: bool = True) -> dict[str, bytes]:
 def verify(
     plan: Plan, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
 ) -> TargetVerdict:
-    """Execute the sources and hold them against the reference. Raises SourceError."""
-    return plan.verify(target, files, progress, fail_fast)
+    """Execute the sources and hold them against the reference; STL also against SCL. Raises SourceError."""
+    verdict = plan.verify(target, files, progress, fail_fast)
+    if target != STL or (fail_fast and not verdict.ok):
+        return verdict
+    return TargetVerdict((*verdict.checks, agreement(plan, files)))
+
+
+def agreement(plan: Plan, files: Files) -> Check:
+    """Values in which the nominal motion of STL sources differs from that of the SCL sources of the same job.
+
+    Both compute in the same order, so that every bit must agree.
+    """
+    traces = {SCL: plan.golden_trace(SCL, plan.sources(SCL)), STL: plan.golden_trace(STL, files)}
+    told = list(disagreements(traces))
+    return Check("agrees_with_scl", float(len(told)), 0.0, "1", detail="; ".join(told))
 
 
 def reference(plan: Plan) -> Trajectory:

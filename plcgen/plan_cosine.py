@@ -15,8 +15,8 @@ from plcgen.check.rig import Instance
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.job import Job
 from plcgen.jobfile_cosine import CENTRED
+from plcgen.loading import load
 from plcgen.plan import Comparison, Derivation, Files, Plan, Progress, Stretch
-from plcgen.plan_hoist import load
 from plcgen.plan_two_axis import import_check
 from plcgen.plan_two_axis import load as load_smart
 from plcgen.profile.constants import ConstantGroup

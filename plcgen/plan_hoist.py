@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,23 +10,16 @@ from plcgen.check.hoist import Subject, nominal_trace, verify_hoist
 from plcgen.check.hoist_model import HoistModel, TripModel
 from plcgen.check.verdict import TargetVerdict
 from plcgen.job import Job
+from plcgen.loading import load
 from plcgen.plan import Derivation, Files, Plan, Progress, Stretch
-from plcgen.plc.core import Program
-from plcgen.plc.scl.dialects import CLASSIC, TIA
-from plcgen.plc.scl.lowering import lower
-from plcgen.plc.scl.parser import parse
-from plcgen.plc.scl.syntax import Block
-from plcgen.plc.source import decode_source
 from plcgen.profile.constants import ConstantGroup
 from plcgen.profile.hoist import Trip, creeping_travel, plan_stop, plan_trip
 from plcgen.profile.hoist_constants import hoist_constants, transition_table
 from plcgen.profile.hoist_rules import derive, encoder_step, position_window
 from plcgen.render.files import OutputFile
 from plcgen.render.hoist import block_names, hoist_context, output_files
-from plcgen.targets import TARGETS
+from plcgen.render.mnemonics import to_german
 from plcgen.trajectory import Trajectory
-
-DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
 
 
 @dataclass(frozen=True)
@@ -57,6 +49,10 @@ class HoistPlan(Plan):
     def context(self, target: str, verified: bool) -> dict[str, object]:
         return hoist_context(self.job, self.trip, target, verified)
 
+    def finished(self, file: OutputFile, text: str) -> str:
+        is_german = file.name.endswith(".awl") and self.job.mnemonics == "german"
+        return to_german(text) if is_german else text
+
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
@@ -72,18 +68,8 @@ class HoistPlan(Plan):
     def subject(self, target: str, files: Files) -> Subject:
         """The program and the names under which verification finds its block and instance."""
         names = block_names(self.job, target)
-        return Subject(load(target, files), names.fb.strip('"'), names.db.strip('"'), hoist_model(self))
-
-
-def load(target: str, files: Mapping[str, bytes]) -> Program:
-    """Parse and lower every source file of a target; the example that calls the blocks comes last."""
-    row = TARGETS[target]
-    dialect = DIALECTS[row.dialect]
-    names = sorted((name for name in files if name.endswith(row.suffix)), key=lambda name: ("_example" in name, name))
-    blocks: list[Block] = []
-    for name in names:
-        blocks.extend(parse(decode_source(name, files[name]), dialect))
-    return lower(blocks, dialect)
+        block, instance = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
+        return Subject(load(target, files), block, instance, hoist_model(self))
 
 
 def hoist_model(plan: HoistPlan) -> HoistModel:

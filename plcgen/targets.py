@@ -38,6 +38,17 @@ TARGETS = {
             methods=frozenset({"hoist", "cosine"}),
         ),
         Target(
+            name="s7-300-stl",
+            title="STEP 7 V5.x, STL source (AWL) for S7-300 and S7-400",
+            folder="s7-300-stl",
+            dialect="stl",
+            suffix=".awl",
+            encoding="ascii",
+            newline="\r\n",
+            max_identifier=24,
+            methods=frozenset({"hoist"}),
+        ),
+        Target(
             name="tia-scl",
             title="TIA Portal, external SCL source for S7-300, S7-1200 and S7-1500",
             folder="tia-scl",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -68,3 +68,17 @@ def _spell(column: Column) -> list[str]:
     if column.dtype.kind == "f":
         return [np.format_float_positional(value, unique=True, trim="-") for value in column]
     return [str(int(value)) for value in column]
+
+
+def disagreements(traces: Mapping[str, Trajectory]) -> Iterator[str]:
+    """Where trajectories part from the first, in any bit."""
+    (first, reference), *others = traces.items()
+    for target, trace in others:
+        if len(trace) != len(reference):
+            yield f"{target} and {first} disagree: {len(trace)} rows and {len(reference)}"
+            continue
+        for name, column in reference.columns.items():
+            rows = np.flatnonzero(column != trace[name])
+            if len(rows):
+                row = rows[0]
+                yield f"{target} and {first} disagree: {name} is {trace[name][row]} and {column[row]} in row {row}"

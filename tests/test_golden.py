@@ -13,7 +13,7 @@ from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.errors import PlcgenError
 from plcgen.golden import check_case, check_golden, stored_text, thinned, unified
 from plcgen.job import Job
-from plcgen.trajectory import Trajectory
+from plcgen.trajectory import Trajectory, disagreements
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = (ROOT / "templates" / "jobs" / "hoist.toml").read_bytes()
@@ -127,9 +127,9 @@ def test_no_update_without_verification(case: Path, fake: dict[str, bytes], monk
 
 def test_targets_must_agree_in_every_bit() -> None:
     other = Trajectory({"time": np.arange(3) * 0.01, "phase": np.array([0, 0, 1], dtype=np.int16)})
-    assert list(golden.disagreements({"a": trip(), "b": trip()})) == []
-    assert list(golden.disagreements({"a": trip(), "b": other})) == ["b and a disagree: phase is 1 and 0 in row 2"]
-    assert list(golden.disagreements({"a": trip(), "b": trip(2)})) == ["b and a disagree: 2 rows and 3"]
+    assert list(disagreements({"a": trip(), "b": trip()})) == []
+    assert list(disagreements({"a": trip(), "b": other})) == ["b and a disagree: phase is 1 and 0 in row 2"]
+    assert list(disagreements({"a": trip(), "b": trip(2)})) == ["b and a disagree: 2 rows and 3"]
 
 
 @pytest.mark.usefixtures("fake")

@@ -238,7 +238,9 @@ def test_method_that_a_target_does_not_serve(monkeypatch: pytest.MonkeyPatch) ->
     from plcgen.targets import TARGETS
 
     monkeypatch.setitem(TARGETS, "tia-scl", replace(TARGETS["tia-scl"], methods=frozenset()))
-    message = 'job.toml:3:12: targets[0] = "tia-scl" does not serve the method "hoist"; write "s7-300-scl"'
+    message = (
+        'job.toml:3:12: targets[0] = "tia-scl" does not serve the method "hoist"; write "s7-300-scl" or "s7-300-stl"'
+    )
     assert refused(SHORT).split("\n")[0] == message
 
 

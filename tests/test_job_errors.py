@@ -32,6 +32,7 @@ reaction_time = 0.5
 fb = 100
 """
 
+TWO_TARGETS = 'targets = ["s7-300-scl", "tia-scl"]'
 # What is written in the job above, what a user writes instead, and the place and words of the error.
 CASES = [
     ('name = "MainShaft"', "", '1:1: the job lacks name; add a line such as name = "MainShaft"'),
@@ -41,6 +42,21 @@ CASES = [
         '1:8: name = "NUL" is a device of Windows, which takes no file of that name; write another name',
     ),
     ('"MainShaft"', "5", "1:8: name = 5 is an integer; write a name in quotes"),
+    (
+        TWO_TARGETS,
+        'targets = ["s7-300-stl"]\nmnemonics = "German"',
+        '4:13: mnemonics = "German" is unknown; write "german"',
+    ),
+    (
+        TWO_TARGETS,
+        'targets = ["s7-300-stl"]\nmnemonics = "french"',
+        '4:13: mnemonics = "french" is unknown; write "english" or "german"',
+    ),
+    (
+        TWO_TARGETS,
+        f'{TWO_TARGETS}\nmnemonics = "german"',
+        '4:13: mnemonics = "german" concerns the target "s7-300-stl" alone; add it to targets, or remove the key',
+    ),
     (
         '"MainShaft"',
         '""',
@@ -146,17 +162,18 @@ CASES = [
     (
         '["s7-300-scl", "tia-scl"]',
         '["codesys"]',
-        '3:12: targets[0] = "codesys" is unknown; write "s7-300-scl", "tia-scl" or "s7-200-smart"',
+        '3:12: targets[0] = "codesys" is unknown; write "s7-300-scl", "s7-300-stl", "tia-scl" or "s7-200-smart"',
     ),
     (
         '["s7-300-scl", "tia-scl"]',
         '["tia-scl", 7]',
-        '3:23: targets[1] = 7 is an integer; write "s7-300-scl", "tia-scl" or "s7-200-smart"',
+        '3:23: targets[1] = 7 is an integer; write "s7-300-scl", "s7-300-stl", "tia-scl" or "s7-200-smart"',
     ),
     (
         '["s7-300-scl", "tia-scl"]',
         '["s7-200-smart"]',
-        '3:12: targets[0] = "s7-200-smart" does not serve the method "hoist"; write "s7-300-scl" or "tia-scl"',
+        '3:12: targets[0] = "s7-200-smart" does not serve the method "hoist"; '
+        'write "s7-300-scl", "s7-300-stl" or "tia-scl"',
     ),
     (
         '["s7-300-scl", "tia-scl"]',

@@ -18,6 +18,8 @@ def test_each_row_is_found_by_its_name() -> None:
 def test_spelling_on_disk() -> None:
     classic, tia, smart = target("s7-300-scl"), target("tia-scl"), target("s7-200-smart")
     assert (classic.encoding, classic.newline, classic.suffix, classic.max_identifier) == ("ascii", "\r\n", ".scl", 24)
+    stl = target("s7-300-stl")
+    assert (stl.encoding, stl.newline, stl.suffix, stl.max_identifier) == ("ascii", "\r\n", ".awl", 24)
     assert (tia.encoding, tia.newline, tia.suffix, tia.max_identifier) == ("utf-8-sig", "\r\n", ".scl", 128)
     assert (smart.encoding, smart.newline, smart.suffix, smart.max_identifier) == ("ascii", "\r\n", ".awl", 23)
 
@@ -29,7 +31,7 @@ def test_spelling_on_disk() -> None:
         ("TIA-SCL", 'unknown target "TIA-SCL"; write "tia-scl"'),
         ("s7-200", 'unknown target "s7-200"; write "s7-200-smart"'),
         ("tia", 'unknown target "tia"; write "tia-scl"'),
-        ("codesys", 'unknown target "codesys"; write "s7-300-scl", "tia-scl" or "s7-200-smart"'),
+        ("codesys", 'unknown target "codesys"; write "s7-300-scl", "s7-300-stl", "tia-scl" or "s7-200-smart"'),
     ],
 )
 def test_unknown_target(name: str, message: str) -> None:
@@ -40,6 +42,7 @@ def test_unknown_target(name: str, message: str) -> None:
 
 def test_dialects_of_the_table_exist() -> None:
     known = {dialect.name: dialect.identifier_length for dialect in (dialects.CLASSIC, dialects.TIA)}
+    known["stl"] = dialects.CLASSIC.identifier_length  # STEP 7 V5 takes the names of SCL and STL alike
     known["smart"] = smart_text.IDENTIFIER_LENGTH
     assert {row.dialect: row.max_identifier for row in TARGETS.values()} == known
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from plcgen.render.literals import real_literal
+from plcgen.render.literals import real_literal, stl_real_literal
 
 
 def template_folder() -> Path:
@@ -33,6 +33,7 @@ def environment() -> Environment:
         autoescape=False,
     )
     templates.filters["real"] = real_literal
+    templates.filters["stl_real"] = stl_real_literal
     templates.filters["column"] = column
     return templates
 

@@ -9,6 +9,10 @@ from plcgen.profile.hoist import Trip
 from plcgen.profile.hoist_constants import hoist_constants
 from plcgen.render.files import OutputFile
 from plcgen.render.scl_source import SymbolLine, address, constant_lines, source_context
+from plcgen.targets import TARGETS
+
+# What stands between the kind and the number of a block, in the sources that name blocks by number.
+NUMBERED = {"s7-300-scl": "", "s7-300-stl": " "}
 
 
 @dataclass(frozen=True)
@@ -25,23 +29,26 @@ class BlockNames:
 
 def output_files(job: Job, target: str) -> tuple[OutputFile, ...]:
     """Files of a target in the order of import."""
-    stem = job.name
+    stem, suffix = job.name, TARGETS[target].suffix
     files = (
         OutputFile("symbols.asc", f"{stem}.asc", "symbol table, fixed columns"),
         OutputFile("symbols.sdf", f"{stem}.sdf", "symbol table, comma-separated: the same symbols"),
-        OutputFile("source.scl", f"{stem}.scl", "the blocks"),
-        OutputFile("example.scl", f"{stem}_example.scl", "example calls"),
+        OutputFile(f"source{suffix}", f"{stem}{suffix}", "the blocks"),
+        OutputFile(f"example{suffix}", f"{stem}_example{suffix}", "example calls"),
         OutputFile("import.md", "IMPORT.md", "this note"),
     )
-    has_symbols = target == "s7-300-scl"
+    has_symbols = target in NUMBERED
     return tuple(file for file in files if has_symbols or not file.template.startswith("symbols"))
 
 
 def block_names(job: Job, target: str) -> BlockNames:
     """Classic sources name blocks by number, so that they compile without a symbol table; TIA sources by name."""
     blocks = job.blocks
-    if target == "s7-300-scl":
-        return BlockNames(f"FB{blocks.fb}", f"DB{blocks.db}", f"FC{blocks.fc}", f"FC{blocks.fc + 1}", "OB100", "OB35")
+    if target in NUMBERED:
+        numbers = (("FB", blocks.fb), ("DB", blocks.db), ("FC", blocks.fc), ("FC", blocks.fc + 1))
+        return BlockNames(
+            *(f"{kind}{NUMBERED[target]}{number}" for kind, number in (*numbers, ("OB", 100), ("OB", 35)))
+        )
     fb, *others = blocks.code_names
     return BlockNames(*(f'"{symbol}"' for symbol in (fb, blocks.db_name, *others)))
 

@@ -49,6 +49,7 @@ def source_context(job: Job, verified: bool) -> dict[str, object]:
         "job_file": job.file,
         "job_sha256": job.sha256,
         "unverified": not verified,
+        "mnemonics": job.mnemonics.capitalize(),
         "unit": job.length_unit,
         "sample_period": job.sample_period,
         "period_ms": f"{job.sample_period * 1000:g}",

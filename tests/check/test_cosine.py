@@ -9,10 +9,11 @@ import pytest
 
 from plcgen import pipeline
 from plcgen.errors import JobError
-from plcgen.golden import deviation, disagreements
+from plcgen.golden import deviation
 from plcgen.job import Job, parse_job
 from plcgen.jobfile_cosine import FITS, SHAPES
 from plcgen.plan_cosine import CosinePlan, MovePlan, RampPlan
+from plcgen.trajectory import disagreements
 
 TARGETS = ("s7-300-scl", "tia-scl", "s7-200-smart")
 MOST_SAMPLES = 1500
@@ -104,7 +105,7 @@ def test_a_sum_of_real_would_creep_where_counts_stand_still() -> None:
         .replace("statRing[statIndex] := tempCount;", "statRing[statIndex] := statVelocity;")
         .replace("statSum := 0;", "statSum := 0.0;")
         .replace("DINT_TO_REAL(tempDelta) * COUNT_VALUE", "tempDelta * COUNT_VALUE * COUNTS")
-        .replace("velocitySetpoint := statVelocity;       // to the last bit", "velocitySetpoint := statSum * COUNT_VALUE * COUNTS;")
+        .replace("velocitySetpoint := statVelocity;", "velocitySetpoint := statSum * COUNT_VALUE * COUNTS;")
         .replace("DINT_TO_REAL(statSum) * COUNT_VALUE;", "statSum * COUNT_VALUE * COUNTS;")
     )  # fmt: skip
     assert drifting != text

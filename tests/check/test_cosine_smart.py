@@ -14,8 +14,8 @@ from plcgen import pipeline
 from plcgen.check.cosine_smart_rig import OUTPUTS, SmartAxis
 from plcgen.job import Job, parse_job
 from plcgen.lint_smart import smart_findings
+from plcgen.loading import load
 from plcgen.plan_cosine import CosinePlan
-from plcgen.plan_hoist import load
 from plcgen.plc.core import Program
 from plcgen.plc.cpu.smart import MAIN, Smart
 from plcgen.plc.machine import Machine

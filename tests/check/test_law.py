@@ -12,7 +12,7 @@ import pytest
 
 from plcgen import pipeline
 from plcgen.job import read_job
-from plcgen.plan_hoist import load
+from plcgen.loading import load
 from plcgen.plc.machine import Machine
 from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower

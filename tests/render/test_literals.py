@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Callable
 from fractions import Fraction
 
 import numpy as np
@@ -11,10 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plcgen.render.literals import real_literal
+from plcgen.render.literals import real_literal, stl_real_literal
 
 # What both dialects take: digits on both sides of the point, an exponent with a sign.
 REAL = re.compile(r"-?[0-9]+\.[0-9]+(E[+-][0-9]{2})?")
+STL_REAL = re.compile(r"-?[0-9]\.[0-9]{6,8}e[+-][0-9]{3}")
 SMALLEST, LARGEST = float(np.finfo(np.float32).tiny), float(np.finfo(np.float32).max)
 
 
@@ -49,19 +51,45 @@ def test_spelling(value: float, text: str) -> None:
 @pytest.mark.parametrize(
     "value", [float("nan"), float("inf"), float("-inf"), 3.5e38, -1e300, 1e-39, -1e-40, 1e-50, 5e-324]
 )
-def test_values_that_real_cannot_hold(value: float) -> None:
+@pytest.mark.parametrize("spell", [real_literal, stl_real_literal])
+def test_values_that_real_cannot_hold(spell: Callable[[float], str], value: float) -> None:
     with pytest.raises(ValueError, match=re.escape(f"{value!r} is out of the range of REAL")):
-        real_literal(value)
+        spell(value)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0.000000e+000"),
+        (-0.0, "-0.000000e+000"),
+        (10.0, "1.000000e+001"),
+        (-0.5, "-5.000000e-001"),
+        (0.1, "1.000000e-001"),
+        (1 / 3, "3.3333334e-001"),
+        (105.20833333333333, "1.05208336e+002"),
+        (600000.0, "6.000000e+005"),
+        (1e-10, "1.000000e-010"),
+        (16777217.0, "1.6777216e+007"),
+        (LARGEST, "3.4028235e+038"),
+        (SMALLEST, "1.1754944e-038"),
+    ],
+)
+def test_spelling_in_stl(value: float, text: str) -> None:
+    assert stl_real_literal(value) == text
 
 
 def check(value: float) -> None:
-    """The text names the nearest single, whether it is read exactly or by way of a double.
+    """Both spellings name the nearest single, whether they are read exactly or by way of a double.
 
     From 2^25 on the shortest text may lie midway between two singles: the even one is meant, as IEEE 754 rounds.
     """
-    text = real_literal(value)
+    names_the_single(real_literal(value), REAL, value)
+    names_the_single(stl_real_literal(value), STL_REAL, value)
+
+
+def names_the_single(text: str, form: re.Pattern[str], value: float) -> None:
     single = np.float32(value)
-    assert REAL.fullmatch(text), text
+    assert form.fullmatch(text), text
     assert struct.pack("f", np.float32(float(text))) == struct.pack("f", single), text
     with np.errstate(over="ignore"):
         neighbours = [float(np.nextafter(single, np.float32(side))) for side in (-np.inf, np.inf)]

@@ -26,7 +26,7 @@ ALLOWED = {
     nodes.If,
     nodes.Include,
 }
-FILTERS = {"real", "column"}
+FILTERS = {"real", "stl_real", "column"}
 # A number with the punctuation that belongs to it, padded as one.
 PUNCTUATED = re.compile(r"%s[;,]")
 PLC_TEXT = re.compile(
