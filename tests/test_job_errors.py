@@ -45,17 +45,17 @@ CASES = [
     (
         TWO_TARGETS,
         'targets = ["s7-300-stl"]\nmnemonics = "German"',
-        '4:14: mnemonics = "German" is unknown; write "german"',
+        '4:13: mnemonics = "German" is unknown; write "german"',
     ),
     (
         TWO_TARGETS,
         'targets = ["s7-300-stl"]\nmnemonics = "french"',
-        '4:14: mnemonics = "french" is unknown; write "english" or "german"',
+        '4:13: mnemonics = "french" is unknown; write "english" or "german"',
     ),
     (
         TWO_TARGETS,
         f'{TWO_TARGETS}\nmnemonics = "german"',
-        '4:14: mnemonics = "german" concerns the target "s7-300-stl" alone; add it to targets, or remove the key',
+        '4:13: mnemonics = "german" concerns the target "s7-300-stl" alone; add it to targets, or remove the key',
     ),
     (
         '"MainShaft"',

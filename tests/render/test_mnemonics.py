@@ -67,7 +67,8 @@ def test_what_is_no_code_stays() -> None:
 
 
 def test_data_block_stays() -> None:
-    text = "DATA_BLOCK DB 1\nTITLE =A\n FB 1\nBEGIN\n  I := TRUE;\n  A := W#16#C0;\n  C := -1.500000e+000;\nEND_DATA_BLOCK\n"
+    values = "  I := TRUE;\n  A := W#16#C0;\n  C := -1.500000e+000;\n"
+    text = f"DATA_BLOCK DB 1\nTITLE =A\n FB 1\nBEGIN\n{values}END_DATA_BLOCK\n"
     assert to_german(text) == text
 
 
