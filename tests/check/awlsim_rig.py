@@ -6,7 +6,8 @@ ignores initial values in the declaration of an FB, which is why the instance DB
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+import math
+from collections.abc import Callable, Iterable, Iterator, Set
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -14,15 +15,15 @@ from typing import Any
 import pytest
 
 from plcgen.check.hoist_bench import Bench
-from plcgen.check.rig import PERFECT, Clock, Encoder, Rig
-from plcgen.plc.types import BYTE_BITS, Elementary, Field
+from plcgen.check.rig import PERFECT, Clock, Encoder, Rig, Snapshot
+from plcgen.plc.types import BYTE_BITS, REAL, Elementary, Field
 
 CALLER = """
 ORGANIZATION_BLOCK OB 1
 BEGIN
 NETWORK
 TITLE =
-      {call} FB {block} , DB {block} ();
+      CALL FB {block} , DB {block} ();
 END_ORGANIZATION_BLOCK
 """
 
@@ -44,7 +45,7 @@ class AwlsimBlock:
         languages = import_module("awlsim.common.cpuconfig").S7CPUConfig
         cpu.getSpecs().setNrAccus(2)
         cpu.getConf().setConfiguredMnemonics(languages.MNEMONICS_DE if german else languages.MNEMONICS_EN)
-        for text in (*sources, CALLER.format(call="CALL", block=number)):
+        for text in (*sources, CALLER.format(block=number)):
             parser = import_module("awlsim.awlcompiler").AwlParser()
             parser.parseText(text)
             self._simulation.load(parser.getParseTree())
@@ -73,12 +74,16 @@ class AwlsimBlock:
         """Variables of the DB."""
         return [field.name for field in self._block.struct.fields if field.name]
 
+    def read(self, name: str) -> bytes:
+        """The bytes of a variable, big-endian; one byte, 0 or 1, for a BOOL."""
+        return _bits(self.image, self.place(name))
+
     def cycle(self) -> None:
         self._simulation.runCycle()
 
-    def watch(self, callback: Any) -> None:
-        """Call it with the CPU after each instruction."""
-        self._cpu.setPostInsnCallback(callback, self._cpu)
+    def interrupt(self, number: int) -> None:
+        """Run an OB: interrupts do not come by themselves here."""
+        self._cpu._S7CPU__runOB(self._cpu.getOB(number))
 
 
 class TwinError(AssertionError):
@@ -88,6 +93,7 @@ class TwinError(AssertionError):
 class TwinRig(Rig):
     """A rig that runs the SCL, with the STL at its side; after each scan every common variable must have equal bits.
 
+    What is not a number has other bits in awlsim: it is equal to what is not a number.
     Equal setpoints move the plant alike, so the STL is in the same closed loop.
     """
 
@@ -103,13 +109,21 @@ class TwinRig(Rig):
     def scan(self) -> None:
         """One scan of both. The inputs are those that the rig has given to the SCL: the block does not write them."""
         super().scan()
-        ours, theirs = self.image, bytearray(self.twin.image)
-        for name, own, other in self._pairs:
-            if name in INPUTS:
-                _copy(ours, own, theirs, other)
-        self.twin.image = bytes(theirs)
+        self._hand_over(INPUTS)
         self.twin.cycle()
         self.compare()
+
+    def restore(self, moment: Snapshot) -> None:
+        super().restore(moment)
+        self._hand_over({name for name, _, _ in self._pairs})
+
+    def _hand_over(self, names: Set[str]) -> None:
+        """Set variables of the STL to what they are in the SCL."""
+        ours, theirs = self.image, bytearray(self.twin.image)
+        for name, own, other in self._pairs:
+            if name in names:
+                _copy(ours, own, theirs, other)
+        self.twin.image = bytes(theirs)
 
     @property
     def image(self) -> bytes:
@@ -124,7 +138,7 @@ class TwinRig(Rig):
         ours, theirs = self.image, self.twin.image
         for name, own, other in self._pairs:
             left, right = _bits(ours, own), _bits(theirs, other)
-            if left != right:
+            if left != right and not (_is_nan(left) and _is_nan(right)):
                 yield f"{name} is {left.hex()} in SCL and {right.hex()} in STL"
 
 
@@ -151,6 +165,11 @@ def _place(field: Field) -> Place:
 def _bits(image: bytes, place: Place) -> bytes:
     byte, bit, width = place
     return bytes([image[byte] >> bit & 1]) if width == 1 else image[byte : byte + width // BYTE_BITS]
+
+
+def _is_nan(data: bytes) -> bool:
+    """REAL is the only type of 32 bits in the block."""
+    return len(data) == REAL.bits // BYTE_BITS and math.isnan(REAL.codec.unpack(data)[0])
 
 
 def _copy(source: bytes, own: Place, target: bytearray, other: Place) -> None:
