@@ -21,10 +21,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import floor, log2, sqrt
+from typing import ClassVar, Self
 
 from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
-from plcgen.profile.cosine_fit import CENTRED, Fit, fit, peak
+from plcgen.profile.cosine_fit import CENTRED, Fit, Law, fit, peak
 
 # A count is at least this share of full speed: twice what REAL makes of v_k, so that standstill is count 0.
 FINEST_COUNT = 2.0**-21
@@ -41,8 +42,10 @@ def counts_per_unit(max_velocity: float, filter_length: int) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Ramps:
-    """The law of a job, whatever the speeds. Speeds in the unit of the job."""
+class Limited:
+    """A law, and the limits that its durations keep. Speeds and so on in the unit of the job."""
+
+    LAW: ClassVar[Law]
 
     max_velocity: float
     max_acceleration: float
@@ -52,10 +55,21 @@ class Ramps:
     fit: Fit
 
     @classmethod
-    def of(cls, job: Job) -> Ramps:
+    def of(cls, job: Job) -> Self:
         keys = job.cosine
-        law = fit(keys.fit, CENTRED, keys.seed)
+        law = fit(keys.fit, cls.LAW, keys.seed)
         return cls(keys.max_velocity, keys.max_acceleration, keys.jerk, job.sample_period, keys.filter_length, law)
+
+    @property
+    def counts(self) -> float:
+        return counts_per_unit(self.max_velocity, self.filter_length)
+
+
+@dataclass(frozen=True, eq=False)
+class Ramps(Limited):
+    """Ramps of a job, whatever the speeds."""
+
+    LAW = CENTRED
 
     @cached_property
     def slope(self) -> float:
@@ -81,10 +95,6 @@ class Ramps:
     def settle_time(self) -> float:
         """M T/a that keeps the jerk while the acceleration a dies out: j = c s''/(M T)^2, a = c s'(0)/(M T)."""
         return self.curvature / (self.fit.coefficients[0] * self.jerk)
-
-    @property
-    def counts(self) -> float:
-        return counts_per_unit(self.max_velocity, self.filter_length)
 
     def ramp_time(self, change: float) -> float:
         """Shortest Ta for a change of speed."""

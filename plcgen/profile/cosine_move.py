@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 
 from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
-from plcgen.profile.cosine import CYCLE_RANGE, average_constants, counts_per_unit
-from plcgen.profile.cosine_fit import HALF_SINE, Fit, fit, peak
+from plcgen.profile.cosine import CYCLE_RANGE, Limited, average_constants
+from plcgen.profile.cosine_fit import HALF_SINE, peak
 from plcgen.profile.cosine_motion import OPEN, RAMP, STEADY, Motion, averaged
 
 Samples = NDArray[np.float64]
@@ -37,21 +37,10 @@ TELLING_SAMPLES = 4000
 
 
 @dataclass(frozen=True, eq=False)
-class Moves:
-    """The law of a job, whatever the distance, in the unit of the job."""
+class Moves(Limited):
+    """Moves of a job, whatever the distance."""
 
-    max_velocity: float
-    max_acceleration: float
-    jerk: float
-    sample_period: float
-    filter_length: int
-    fit: Fit
-
-    @classmethod
-    def of(cls, job: Job) -> Moves:
-        keys = job.cosine
-        law = fit(keys.fit, HALF_SINE, keys.seed)
-        return cls(keys.max_velocity, keys.max_acceleration, keys.jerk, job.sample_period, keys.filter_length, law)
+    LAW = HALF_SINE
 
     @cached_property
     def speed(self) -> Polynomial:
@@ -95,10 +84,6 @@ class Moves:
         """E1..E3: u summed over k/N is N + E1/N + E2/N^3 + E3/N^5, by Euler and Maclaurin; u'''''' is linear."""
         ends = [float(self.speed.deriv(order)(1.0) - self.speed.deriv(order)(0.0)) for order in (1, 3, 5)]
         return ends[0] / 12, -ends[1] / 720, ends[2] / 30240
-
-    @property
-    def counts(self) -> float:
-        return counts_per_unit(self.max_velocity, self.filter_length)
 
     @property
     def min_distance(self) -> float:

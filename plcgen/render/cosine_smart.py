@@ -9,7 +9,7 @@ from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
 from plcgen.render.cosine_memory import BYTES_OF_A_COUNT, is_ramp, layout
 from plcgen.render.files import OutputFile
-from plcgen.render.smart_source import Addresses, ParameterLine, Routine, calls, heads, parameter_lines, parameter_note
+from plcgen.render.smart_source import Named, ParameterLine, Routine, calls, heads, parameter_lines, parameter_note
 
 # An analog output of this is full speed.
 FULL_SCALE = 27648
@@ -84,7 +84,7 @@ def cosine_smart_context(job: Job, groups: tuple[ConstantGroup, ...], verified: 
         "job_sha256": job.sha256,
         "unverified": not verified,
         "unit": job.length_unit,
-        "v": Addresses(addresses),
+        "v": Named(addresses),
         "block": heads(blocks),
         "call": calls(blocks),
         "parameters": _parameters(job, groups, addresses),

@@ -9,10 +9,12 @@ from plcgen.profile.constants import Constant, ConstantGroup
 
 
 @dataclass(frozen=True)
-class Addresses:
-    """Attribute access for templates: `{{ v.gamma }}`."""
+class Named:
+    """Attribute access for templates: `{{ v.gamma }}` is an address, `{{ block.start }}` a block in its head and
+    `{{ call.start }}` in a CALL.
+    """
 
-    by_name: dict[str, str]
+    by_name: Mapping[str, str]
 
     def __getattr__(self, name: str) -> str:
         try:
@@ -29,27 +31,14 @@ class Routine:
     purpose: str
 
 
-@dataclass(frozen=True)
-class Routines:
-    """`{{ block.start }}` names a block in its head, `{{ call.start }}` in a CALL."""
-
-    by_name: dict[str, str]
-
-    def __getattr__(self, name: str) -> str:
-        try:
-            return self.by_name[name]
-        except KeyError:
-            raise AttributeError(name) from None
-
-
-def heads(blocks: Mapping[str, Routine]) -> Routines:
+def heads(blocks: Mapping[str, Routine]) -> Named:
     """The names of blocks as their heads spell them."""
-    return Routines({key: routine.name for key, routine in blocks.items()})
+    return Named({key: routine.name for key, routine in blocks.items()})
 
 
-def calls(blocks: Mapping[str, Routine]) -> Routines:
+def calls(blocks: Mapping[str, Routine]) -> Named:
     """The same as a CALL or ATCH spells them."""
-    return Routines({key: routine.name.split(":")[1] for key, routine in blocks.items()})
+    return Named({key: routine.name.split(":")[1] for key, routine in blocks.items()})
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from plcgen import __version__
 from plcgen.job import Job
 from plcgen.profile.two_axis import LONGEST_TABLE, SLOWEST_TABLE, TRAIN_SHARE, two_axis_constants
 from plcgen.render.files import OutputFile
-from plcgen.render.smart_source import Addresses, ParameterLine, Routine, calls, heads, parameter_lines
+from plcgen.render.smart_source import Named, ParameterLine, Routine, calls, heads, parameter_lines
 from plcgen.render.two_axis_memory import FINEST, LEAST_JERK, SHARE, SHORTEST, STEPS, layout, memory_map
 
 BLOCK_VERSION = "0.1"
@@ -178,7 +178,7 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
         "job_sha256": job.sha256,
         "unverified": not verified,
         "unit": job.length_unit,
-        "v": Addresses(addresses),
+        "v": Named(addresses),
         "block": heads(blocks),
         "call": calls(blocks),
         "ports": (x, y),

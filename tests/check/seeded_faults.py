@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import pairwise
+from typing import TypeVar
 
 from plcgen import pipeline
 from plcgen.errors import PlcgenError
@@ -100,6 +101,7 @@ distance = 0.2
 distance = 0.01
 """
 
+T = TypeVar("T")
 CASES = {"hoist": HOIST, "ramp": RAMP, "move": MOVE}
 
 SWAPS = {
@@ -219,9 +221,14 @@ def survives(case: str, target: str, fault: SeededFault) -> bool:
 
 def survivors(case: str, target: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
     """Those that nothing caught, as they turn up; in a pool of processes."""
+    return alive(partial(survives, case, target), faults)
+
+
+def alive(survives: Callable[[T], bool], faults: list[T]) -> Iterator[T]:
+    """The faults that survive, as they turn up; in a pool of processes."""
     with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(partial(survives, case, target), faults, chunksize=4)
-        yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
+        verdicts = pool.map(survives, faults, chunksize=4)
+        yield from (fault for fault, lives in zip(faults, verdicts, strict=True) if lives)
 
 
 if __name__ == "__main__":

@@ -10,8 +10,6 @@ import argparse
 import random
 import re
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from functools import cache, partial
 
 from plcgen import pipeline
@@ -19,6 +17,7 @@ from plcgen.errors import PlcgenError
 from plcgen.job import parse_job
 from plcgen.plan import Plan
 from tests.check import seeded_faults
+from tests.check.seeded_faults_stl import SeededFault
 
 STL = "s7-300-stl"
 CASES = {name: text.replace('"tia-scl"', f'"{STL}"') for name, text in seeded_faults.CASES.items()}
@@ -32,20 +31,6 @@ COMPARISONS = {"<": (">", "<="), ">": ("<", ">="), "<=": (">=", "<"), ">=": ("<=
 STATEMENT = re.compile(r"(?P<label>\w{1,4}:)?(?P<indent> +)(?P<word>[A-Z+*/<>=(]+) +(?P<operand>[^;]*);")
 VALUE = re.compile(r"(?P<head>  [A-Z]\w+ +:= )(?P<operand>[^;]*);")
 REAL = re.compile(r"-?\d\.\d+e[+-]\d{3}")
-
-
-@dataclass(frozen=True)
-class SeededFault:
-    """Line `row` of the text becomes `line`."""
-
-    row: int
-    line: str
-    note: str
-
-    def apply(self, text: str) -> str:
-        lines = text.split("\r\n")
-        lines[self.row] = self.line
-        return "\r\n".join(lines)
 
 
 @cache
@@ -131,9 +116,7 @@ def survives(case: str, fault: SeededFault) -> bool:
 
 def survivors(case: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
     """Those that nothing caught, as they turn up; in a pool of processes."""
-    with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(partial(survives, case), faults, chunksize=4)
-        yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
+    return seeded_faults.alive(partial(survives, case), faults)
 
 
 if __name__ == "__main__":

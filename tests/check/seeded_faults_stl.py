@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
 
@@ -158,9 +157,7 @@ def survives(case: str, fault: SeededFault) -> bool:
 
 def survivors(case: str, faults: list[SeededFault]) -> Iterator[SeededFault]:
     """Those that nothing caught, as they turn up; in a pool of processes."""
-    with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(partial(survives, case), faults, chunksize=4)
-        yield from (fault for fault, alive in zip(faults, verdicts, strict=True) if alive)
+    return seeded_faults.alive(partial(survives, case), faults)
 
 
 if __name__ == "__main__":
