@@ -94,7 +94,7 @@ def _cosine_move_conflicts(limits: CosineLimits, move: CosineMove, place: str) -
     optional = ("then", "after") if limits.shape == CENTRED else ()
     for key in (key for key, value in given.items() if value is not None and key not in (*wanted, *optional)):
         yield f"{place}.{key}", f'does not belong to shape = "{limits.shape}", which wants {" and ".join(wanted)}'
-    if (move.then_velocity is None) != (move.after is None):
+    if limits.shape == CENTRED and (move.then_velocity is None) != (move.after is None):
         yield place, "gives only one of then and after; write both, the other speed and when it is ordered, or none"
     for key in ("from", "to", "then"):
         if given[key] is not None and abs(given[key]) > limits.max_velocity:

@@ -99,8 +99,9 @@ def _where(table: KeyPath) -> str:
 def _missing(text: TomlFile, path: KeyPath, tables: Tables) -> Problem:
     owner = f"[{spelled_path(path[:-1])}]" if path[:-1] else "the job"
     if path in tables and _is_list(path, tables):
-        keys = " and ".join(_keys(tables[path]))
-        words = f"{owner} lacks [[{spelled_path(path)}]]; write one or more, and {keys} below each"
+        keys = " and ".join(key for key in _keys(tables[path]) if _field(tables[path], key).is_required())
+        below = f", and {keys} below each" if keys else f"; `plcgen new {path[0]}` writes an example"
+        words = f"{owner} lacks [[{spelled_path(path)}]]; write one or more{below}"
     elif path in tables:
         words = f"{owner} lacks the table [{spelled_path(path)}]; `plcgen new {path[-1]}` writes an example"
     else:

@@ -66,8 +66,9 @@ class Quantity:
 
     def __get_pydantic_json_schema__(self, _schema: CoreSchema, _handler: GetJsonSchemaHandler) -> dict[str, Any]:
         largest = max(UNITS_PER_METRE, key=lambda unit: self.scale(unit))
-        maximum = self.high * self.scale(largest)
-        return {"type": "number", "minimum": self.low, "maximum": maximum, "unit": self.unit}
+        scale = self.scale(largest)
+        minimum, maximum = min(self.low, self.low * scale), self.high * scale
+        return {"type": "number", "minimum": minimum, "maximum": maximum, "unit": self.unit}
 
 
 @dataclass(frozen=True)

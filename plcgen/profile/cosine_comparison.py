@@ -46,7 +46,7 @@ def _figures(law: Law, polynomial: Polynomial, coefficients: tuple[float, ...]) 
     largest = pi if law is HALF_SINE else pi / 2
     slope = float(polynomial.deriv()(1.0)) / largest * (-1.0 if law is HALF_SINE else 1.0)
     return (
-        *coefficients,
+        *(float(f"{value:.9g}") for value in coefficients),
         *(_short(error(law, polynomial, order)) for order in range(DERIVATIVES)),
         _short(short),
         _short(slope),

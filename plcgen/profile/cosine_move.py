@@ -92,8 +92,8 @@ class Moves(Limited):
 
     @property
     def max_distance(self) -> float:
-        """MOST_SAMPLES at full speed."""
-        return MOST_SAMPLES * self.sample_period / self.time_by_velocity
+        """What MOST_SAMPLES reach."""
+        return self.longest((MOST_SAMPLES - 1) * self.sample_period)
 
     def durations(self, distance: float, period: float | None = None) -> tuple[float, ...]:
         """Shortest Tm by speed, by acceleration, by the jerk at the ends and by the jerk in between."""
@@ -115,6 +115,15 @@ class Moves(Limited):
             fitting = [pair for pair in decided if max(self.samples(*pair)) <= TELLING_SAMPLES]
             if fitting:
                 yield max(fitting, key=lambda pair: self.samples(*pair))
+
+    def longest(self, duration: float) -> float:
+        """Longest distance in a duration: the inverse of the shortest Tm."""
+        return min(
+            duration / self.time_by_velocity,
+            duration**2 / self.square_by_acceleration,
+            duration**2 * self.sample_period / self.cube_by_jump,
+            duration**3 / self.cube_by_jerk,
+        )
 
     def samples(self, distance: float, period: float | None = None) -> tuple[int, ...]:
         """N: whole samples and one more, which pays for the sum being less than the integral. REAL may come out on

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, log10
 
 from numpy.polynomial import Polynomial
 
@@ -30,7 +30,7 @@ def derive_moves(job: Job) -> Moves:
     moves = Moves.of(job)
     _refuse_wrong_fit(job, moves.fit)
     for index, move in enumerate(job.cosine.moves):
-        _refuse_distance(job, moves, index, abs(move.distance or 0.0))
+        _refuse_distance(job, moves, index, move.distance or 0.0)
     return moves
 
 
@@ -63,35 +63,34 @@ def _refuse_wrong_fit(job: Job, fit: Fit) -> None:
 def _refuse_many_samples(job: Job, ramps: Ramps) -> None:
     """Of a ramp over the whole range at the shortest plausible cycle."""
     longest = ramps.ramp_time(2 * ramps.max_velocity)
-    most = MOST_RAMP_SAMPLES / CYCLE_RANGE
+    most = floor(MOST_RAMP_SAMPLES / CYCLE_RANGE)
     if longest / job.sample_period > most:
         raise job.error(
             "sample_period",
             f"sample_period = {job.sample_period:g} s is too short: a ramp over the whole range takes {longest:.4g} s, "
-            f"{longest / job.sample_period:.0f} samples of {most:.0f} at the most; raise max_acceleration and jerk, or "
+            f"{longest / job.sample_period:.0f} samples of {most} at the most; raise max_acceleration and jerk, or "
             "lengthen sample_period",
         )
 
 
-def _refuse_distance(job: Job, moves: Moves, index: int, distance: float) -> None:
-    key, unit = f"cosine.moves[{index}].distance", job.length_unit
-    longest = _rounded_down(moves.max_distance)
+def _refuse_distance(job: Job, moves: Moves, index: int, written: float) -> None:
+    key, unit, distance = f"cosine.moves[{index}].distance", job.length_unit, abs(written)
     samples = max(moves.samples(distance)) if distance else 0
-    if distance > moves.max_distance or samples > MOST_SAMPLES:
+    if distance > moves.max_distance:
         raise job.error(
             key,
-            f"distance = {distance:g} {unit} takes {samples} samples; {MOST_SAMPLES} are the most, at full speed "
-            f"{longest:g} {unit}; divide it, or lengthen sample_period",
+            f"distance = {written:g} {unit} takes {samples} samples; {MOST_SAMPLES} are the most, enough for "
+            f"{_rounded_down(moves.max_distance):g} {unit}; divide it, or lengthen sample_period",
         )
     if distance < moves.min_distance:
         raise job.error(
             key,
-            f"distance = {distance:g} {unit} is shorter than a count of speed in a sample, {moves.min_distance:.3g} "
+            f"distance = {written:g} {unit} is shorter than a count of speed in a sample, {moves.min_distance:.3g} "
             f"{unit}; write more, or lower max_velocity",
         )
 
 
 def _rounded_down(value: float) -> float:
     """Three digits that are not above the value."""
-    step = 10.0 ** (len(str(floor(value))) - 3)
+    step = 10.0 ** (floor(log10(value)) - 2)
     return floor(value / step) * step
