@@ -253,7 +253,7 @@ CASES = [
     (
         '"two-axis"',
         '"hoist"',
-        "7:2: unknown table [two-axis]; known here: name, method, targets, length_unit, sample_period, hoist, blocks (the first of 2 problems)",
+        "7:2: unknown table [two-axis]; known here: name, method, targets, length_unit, sample_period, mnemonics, hoist, blocks (the first of 2 problems)",
     ),
     ('"two-axis"', '"twoaxis"', '2:10: method = "twoaxis" is unknown; write "two-axis"'),
     ('"two-axis"', '"two_axis"', '2:10: method = "two_axis" is unknown; write "two-axis"'),
