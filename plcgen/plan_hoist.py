@@ -95,7 +95,7 @@ def _scl_program(sources: Sequence[SourceText], dialect: Dialect) -> Program:
 
 def _stl_program(sources: Sequence[SourceText]) -> Program:
     """The front end of STL goes here: parse each source, lower the blocks of all."""
-    raise PlcgenError(f"{sources[0].name}: STL of the S7-300 cannot be executed yet; write --no-verify")
+    raise PlcgenError(f"{sources[0].name}: STL of the S7-300 cannot be executed yet")
 
 
 def hoist_model(plan: HoistPlan) -> HoistModel:
