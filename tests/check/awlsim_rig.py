@@ -23,7 +23,7 @@ ORGANIZATION_BLOCK OB 1
 BEGIN
 NETWORK
 TITLE =
-      CALL FB {block} , DB {block} ();
+      CALL FB {block} , DB {instance} ();
 END_ORGANIZATION_BLOCK
 """
 
@@ -35,44 +35,44 @@ Place = tuple[int, int, int]
 
 
 class AwlsimBlock:
-    """An FB and its instance DB of the same number in awlsim. Each cycle calls it once."""
+    """An FB and its instance DB in awlsim, by their numbers. Each cycle calls it once."""
 
-    def __init__(self, sources: Iterable[str], number: int, german: bool = False) -> None:
-        self.number = number
+    def __init__(self, sources: Iterable[str], block: int, instance: int, german: bool = False) -> None:
+        self.instance = instance
         self._simulation = import_module("awlsim.core.main").AwlSim()
         self._simulation.reset()
         cpu = self._cpu = self._simulation.getCPU()
         languages = import_module("awlsim.common.cpuconfig").S7CPUConfig
         cpu.getSpecs().setNrAccus(2)
         cpu.getConf().setConfiguredMnemonics(languages.MNEMONICS_DE if german else languages.MNEMONICS_EN)
-        for text in (*sources, CALLER.format(block=number)):
+        for text in (*sources, CALLER.format(block=block, instance=instance)):
             parser = import_module("awlsim.awlcompiler").AwlParser()
             parser.parseText(text)
             self._simulation.load(parser.getParseTree())
         self._simulation.build()
         self._simulation.startup()
-        self._block = next(block for block in cpu.allDBs() if block.index == number)
+        self._data = next(data for data in cpu.allDBs() if data.index == instance)
 
     @property
     def image(self) -> bytes:
         """The instance DB."""
-        return bytes(self._block.structInstance.memory.getDataBytes())
+        return bytes(self._data.structInstance.memory.getDataBytes())
 
     @image.setter
     def image(self, data: bytes) -> None:
         area = import_module("awlsim.coreserver.memarea").MemoryArea
         for byte, (before, after) in enumerate(zip(self.image, data, strict=True)):
             if before != after:
-                area(area.TYPE_DB, 0, self.number, byte, 1, bytearray((after,))).writeToCpu(self._cpu)
+                area(area.TYPE_DB, 0, self.instance, byte, 1, bytearray((after,))).writeToCpu(self._cpu)
 
     def place(self, name: str) -> Place:
-        field = self._block.struct.getField(name)
+        field = self._data.struct.getField(name)
         return field.offset.byteOffset, field.offset.bitOffset, field.bitSize
 
     @property
     def names(self) -> list[str]:
         """Variables of the DB."""
-        return [field.name for field in self._block.struct.fields if field.name]
+        return [field.name for field in self._data.struct.fields if field.name]
 
     def read(self, name: str) -> bytes:
         """The bytes of a variable, big-endian; one byte, 0 or 1, for a BOOL."""

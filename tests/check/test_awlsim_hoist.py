@@ -86,7 +86,7 @@ def bench(text: str = "", constants: Mapping[str, float] = MappingProxyType({}),
     subject = plan().subject(SCL, sources(SCL, constants))
     parts = (subject.program, subject.block, subject.instance, subject.model)
     text = text or stl(constants)
-    return TwinBench(*parts, twin=lambda: AwlsimBlock([text], plan().job.blocks.fb, german))
+    return TwinBench(*parts, twin=lambda: AwlsimBlock([text], 100, 100, german))
 
 
 def started() -> Rig:
@@ -280,7 +280,7 @@ def test_commands_in_any_order() -> None:
 
 def test_data_block_gives_every_value() -> None:
     """awlsim leaves zero what BEGIN does not give; the rig has compared the variables that SCL knows as well."""
-    block = AwlsimBlock([stl()], 100)
+    block = AwlsimBlock([stl()], 100, 100)
     constants = [constant for group in hoist_constants(plan().job, plan().trip) for constant in group.constants]
     assert {name for name in block.names if name.isupper()} == {constant.name for constant in constants}
     for constant in constants:
@@ -313,7 +313,7 @@ def test_slip_of_the_finger_is_seen(right: str, wrong: str) -> None:
 def test_example_calls_the_block() -> None:
     """awlsim runs OB 100 at the start."""
     example = sources(STL)["Quick_example.awl"].decode("ascii")
-    block = AwlsimBlock([stl(), example], 100)
+    block = AwlsimBlock([stl(), example], 100, 100)
     assert (block.read("statReady"), block.read("restart")) == (b"\1", b"\1")
     block.interrupt(35)
     assert (block.read("statReady"), block.read("restart")) == (b"\1", b"\0")
