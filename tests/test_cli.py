@@ -20,6 +20,7 @@ ROOT = Path(__file__).parents[1]
 MAIN_SHAFT = ROOT / "golden" / "main-shaft"
 JOB = str(MAIN_SHAFT / "job.toml")
 COMMANDS = ("new", "schema", "derive", "generate", "verify", "check", "lint", "run")
+TARGETS = ("s7-300-scl", "s7-300-stl", "tia-scl")
 GOOD = TargetVerdict((Check("stop_error", 0.0002, 0.001, "m"),))
 BAD = TargetVerdict((Check("stop_error", 0.002, 0.001, "m", detail="up, perfect encoder"),))
 COUNTER = """
@@ -40,7 +41,7 @@ def plcgen(*arguments: str) -> Result:
 @pytest.fixture
 def verdict(monkeypatch: pytest.MonkeyPatch) -> dict[str, TargetVerdict]:
     """Verification that takes no time; a test may change what it says of a target."""
-    said = {"s7-300-scl": GOOD, "tia-scl": GOOD}
+    said = dict.fromkeys(TARGETS, GOOD)
     monkeypatch.setattr(pipeline, "verify", lambda _plan, target, _files, _progress: said[target])
     return said
 
@@ -154,7 +155,7 @@ def test_generate_writes_each_target_into_its_folder(tmp_path: Path) -> None:
     result = plcgen("generate", JOB, "-o", str(tmp_path / "out"))
     assert result.exit_code == 0
     written = sorted(path.relative_to(tmp_path / "out").as_posix() for path in (tmp_path / "out").rglob("*.*"))
-    stored = (path for folder in ("s7-300-scl", "tia-scl") for path in (MAIN_SHAFT / folder).iterdir())
+    stored = (path for folder in TARGETS for path in (MAIN_SHAFT / folder).iterdir())
     assert written == sorted(path.relative_to(MAIN_SHAFT).as_posix() for path in stored)
     for name in written:
         assert (tmp_path / "out" / name).read_bytes() == (MAIN_SHAFT / name).read_bytes()
@@ -190,6 +191,7 @@ def test_json_of_a_verification(verdict: dict[str, TargetVerdict]) -> None:
         "job": "MainShaft",
         "targets": {
             "s7-300-scl": {"ok": True, "checks": [check]},
+            "s7-300-stl": {"ok": True, "checks": [check]},
             "tia-scl": {"ok": False, "checks": [check | {"value": 0.002, "ok": False}]},
         },
     }
@@ -217,7 +219,7 @@ def test_verify_of_a_source_that_does_not_parse(tmp_path: Path) -> None:
 
 
 def test_lint_of_generated_sources_finds_nothing() -> None:
-    files = [str(path) for folder in ("s7-300-scl", "tia-scl") for path in (MAIN_SHAFT / folder).glob("*.scl")]
+    files = [str(path) for folder in TARGETS for path in (MAIN_SHAFT / folder).glob("*.scl")]
     result = plcgen("lint", *files)
     assert (result.exit_code, result.output) == (0, "4 files, 0 errors, 0 warnings\n")
 
