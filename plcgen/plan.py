@@ -11,7 +11,9 @@ from plcgen.job import Job
 from plcgen.profile.constants import ConstantGroup
 from plcgen.render.environment import render
 from plcgen.render.files import OutputFile
-from plcgen.targets import TARGETS
+from plcgen.render.mnemonics import to_german
+from plcgen.render.smart_source import number_networks
+from plcgen.targets import TARGETS, Target
 from plcgen.trajectory import Trajectory
 
 Progress = Callable[[str], None]
@@ -78,17 +80,22 @@ class Plan(ABC):
     def golden_trace(self, target: str, files: Files) -> Trajectory:
         """What sources do on the nominal motion."""
 
-    def finished(self, _file: OutputFile, text: str) -> str:
-        """A rendered text as it goes to disk."""
-        return text
-
     def sources(self, target: str, verified: bool = True) -> dict[str, bytes]:
         """Files of a target by name, encoded as its engineering tool reads them."""
         row = TARGETS[target]
         context = self.context(target, verified)
         files = {}
         for file in self.outputs(target):
-            text = self.finished(file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
+            text = finished(self.job, row, file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
             encoding = "utf-8" if file.name.endswith(".md") else row.encoding
             files[file.name] = text.replace("\n", row.newline).encode(encoding)
         return files
+
+
+def finished(job: Job, target: Target, file: OutputFile, text: str) -> str:
+    """A rendered text as it goes to disk: STL with its networks numbered, or in German mnemonics, where that is due."""
+    if not file.name.endswith(".awl"):
+        return text
+    if target.dialect == "smart":
+        return number_networks(text)
+    return to_german(text) if job.mnemonics == "german" else text

@@ -29,7 +29,6 @@ from plcgen.profile.cosine_rules import derive_moves, derive_ramps
 from plcgen.render import cosine, cosine_smart
 from plcgen.render.cosine_memory import memory_map, refuse_what_does_not_fit
 from plcgen.render.files import OutputFile
-from plcgen.render.smart_source import number_networks
 from plcgen.targets import SMART
 from plcgen.trajectory import Trajectory
 
@@ -80,9 +79,6 @@ class CosinePlan(Plan):
             return cosine_smart.cosine_smart_context(self.job, self.constants, verified)
         return cosine.cosine_context(self.job, self.constants, target, verified)
 
-    def finished(self, file: OutputFile, text: str) -> str:
-        return number_networks(text) if file.name.endswith(".awl") else text
-
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
@@ -96,15 +92,15 @@ class CosinePlan(Plan):
         return nominal_trace(self.subject(target, files))
 
     def subject(self, target: str, files: Files) -> Subject:
-        return Subject(self._smart(files) if target == SMART.name else self._scl(target, files), self.model)
+        return Subject(self._smart(files) if target == SMART.name else self._s7(target, files), self.model)
 
     def _smart(self, files: Files) -> Callable[[], Axis]:
         program, addresses, job = load_smart(self.job, files), memory_map(self.job), self.job
         return lambda: SmartAxis(program, addresses, job.sample_period, job.cosine.shape, GARBAGE)
 
-    def _scl(self, target: str, files: Files) -> Callable[[], Axis]:
+    def _s7(self, target: str, files: Files) -> Callable[[], Axis]:
         program, names = load(target, files), cosine.block_names(self.job, target)
-        fb, db = names.fb.strip('"'), names.db.strip('"')
+        fb, db = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
         return lambda: Instance(program, fb, db, GARBAGE)
 
     def reference(self) -> Trajectory:

@@ -18,7 +18,6 @@ from plcgen.profile.hoist_constants import hoist_constants, transition_table
 from plcgen.profile.hoist_rules import derive, encoder_step, position_window
 from plcgen.render.files import OutputFile
 from plcgen.render.hoist import block_names, hoist_context, output_files
-from plcgen.render.mnemonics import to_german
 from plcgen.trajectory import Trajectory
 
 
@@ -48,10 +47,6 @@ class HoistPlan(Plan):
 
     def context(self, target: str, verified: bool) -> dict[str, object]:
         return hoist_context(self.job, self.trip, target, verified)
-
-    def finished(self, file: OutputFile, text: str) -> str:
-        is_german = file.name.endswith(".awl") and self.job.mnemonics == "german"
-        return to_german(text) if is_german else text
 
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False

@@ -34,7 +34,6 @@ from plcgen.profile.two_axis import (
 )
 from plcgen.profile.two_axis_rules import derive
 from plcgen.render.files import OutputFile
-from plcgen.render.smart_source import number_networks
 from plcgen.render.two_axis import output_files, two_axis_context
 from plcgen.render.two_axis_memory import memory_map, refuse_what_does_not_fit
 from plcgen.trajectory import Trajectory
@@ -66,9 +65,6 @@ class TwoAxisPlan(Plan):
 
     def context(self, _target: str, verified: bool) -> dict[str, object]:
         return two_axis_context(self.job, verified)
-
-    def finished(self, file: OutputFile, text: str) -> str:
-        return number_networks(text) if file.name.endswith(".awl") else text
 
     def verify(
         self, _target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False

@@ -46,7 +46,7 @@ TARGETS = {
             encoding="ascii",
             newline="\r\n",
             max_identifier=24,
-            methods=frozenset({"hoist"}),
+            methods=frozenset({"hoist", "cosine"}),
         ),
         Target(
             name="tia-scl",

@@ -115,10 +115,10 @@ def cosine_constants(job: Job, ramps: Ramps) -> tuple[ConstantGroup, ...]:
             ),
         ),
         ConstantGroup(
-            "Law of a ramp: s(y) = y (D1 - y^2 (D2 - y^2 (D3 - y^2 D4))), about sin(pi y/2)",
+            "Law of a ramp: s(y) = y (LAW_1 - y^2 (LAW_2 - y^2 (LAW_3 - y^2 LAW_4))), about sin(pi y/2)",
             (
                 *(
-                    Constant(f"D{index}", value, "1", "coefficient of the law,", "claim 3")
+                    Constant(f"LAW_{index}", value, "1", "coefficient of the law,", "claim 3")
                     for index, value in enumerate(d, start=1)
                 ),
                 Constant(

@@ -204,11 +204,11 @@ def move_constants(job: Job, moves: Moves) -> tuple[ConstantGroup, ...]:
     )
     law = (
         *(
-            Constant(f"C{index}", value, "1", "coefficient of the law,", "claim 3")
+            Constant(f"LAW_{index}", value, "1", "coefficient of the law,", "claim 3")
             for index, value in enumerate(moves.coefficients, start=1)
         ),
         *(
-            Constant(f"E{index}", value, "1", "of the sum over the samples")
+            Constant(f"SUM_{index}", value, "1", "of the sum over the samples")
             for index, value in enumerate(moves.sum_terms, start=1)
         ),
         Constant("TIME_BY_VELOCITY", moves.time_by_velocity, f"s/{unit}", "Tm/D that keeps the speed"),
@@ -220,6 +220,8 @@ def move_constants(job: Job, moves: Moves) -> tuple[ConstantGroup, ...]:
     average = average_constants(job, moves.counts)
     return (
         ConstantGroup("Limits of the job", limits),
-        ConstantGroup("Law of a move: u(x) = x (C1 - x^2 (C2 - x^2 (C3 - x^2 C4))), about pi/2 sin(pi x)", law),
+        ConstantGroup(
+            "Law of a move: u(x) = x (LAW_1 - x^2 (LAW_2 - x^2 (LAW_3 - x^2 LAW_4))), about pi/2 sin(pi x)", law
+        ),
         ConstantGroup(average.title, average.constants[:2]),
     )

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from plcgen.job import Job
 from plcgen.profile.constants import ConstantGroup
 from plcgen.render.files import OutputFile
-from plcgen.render.scl_source import SymbolLine, address, constant_lines, source_context
+from plcgen.render.scl_source import NUMBERED, SymbolLine, address, constant_lines, source_context
+from plcgen.targets import TARGETS
 
 BODIES = {"centred": "ramp", "half-sine": "move"}
 """Stem of the templates by shape."""
@@ -26,23 +27,25 @@ class BlockNames:
 def block_names(job: Job, target: str) -> BlockNames:
     """Classic sources name blocks by number, so that they compile without a symbol table; TIA sources by name."""
     blocks = job.function_block
-    if target == "s7-300-scl":
-        return BlockNames(f"FB{blocks.fb}", f"DB{blocks.db}", "OB100", "OB35")
+    if target in NUMBERED:
+        blank = NUMBERED[target]
+        numbered = ("FB", blocks.fb), ("DB", blocks.db), ("OB", 100), ("OB", 35)
+        return BlockNames(*(f"{kind}{blank}{number}" for kind, number in numbered))
     fb, restart, cyclic = (f'"{name}"' for name in (blocks.fb_name, blocks.restart_name, blocks.cyclic_name))
     return BlockNames(fb, f'"{blocks.db_name}"', restart, cyclic)
 
 
 def output_files(job: Job, target: str) -> tuple[OutputFile, ...]:
     """Files of a target in the order of import."""
-    stem, body = job.name, BODIES[job.cosine.shape]
+    stem, body, suffix = job.name, BODIES[job.cosine.shape], TARGETS[target].suffix
     files = (
         OutputFile("symbols.asc", f"{stem}.asc", "symbol table, fixed columns"),
         OutputFile("symbols.sdf", f"{stem}.sdf", "symbol table, comma-separated: the same symbols"),
-        OutputFile(f"{body}.scl", f"{stem}.scl", "the blocks"),
-        OutputFile(f"{body}_example.scl", f"{stem}_example.scl", "example calls"),
+        OutputFile(f"{body}{suffix}", f"{stem}{suffix}", "the blocks"),
+        OutputFile(f"{body}_example{suffix}", f"{stem}_example{suffix}", "example calls"),
         OutputFile(f"{body}_import.md", "IMPORT.md", "this note"),
     )
-    has_symbols = target == "s7-300-scl"
+    has_symbols = target in NUMBERED
     return tuple(file for file in files if has_symbols or not file.template.startswith("symbols"))
 
 
@@ -57,6 +60,7 @@ def cosine_context(job: Job, groups: tuple[ConstantGroup, ...], target: str, ver
         "filter_length": length,
         "averages": length > 1,
         "last_index": length - 1,
+        "ring": range(length),
         "max_velocity": job.cosine.max_velocity,
         "symbols": _symbols(job),
         "files": output_files(job, target),

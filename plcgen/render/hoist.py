@@ -8,11 +8,8 @@ from plcgen.job import Job
 from plcgen.profile.hoist import Trip
 from plcgen.profile.hoist_constants import hoist_constants
 from plcgen.render.files import OutputFile
-from plcgen.render.scl_source import SymbolLine, address, constant_lines, source_context
+from plcgen.render.scl_source import NUMBERED, SymbolLine, address, constant_lines, source_context
 from plcgen.targets import TARGETS
-
-# What stands between the kind and the number of a block, in the sources that name blocks by number.
-NUMBERED = {"s7-300-scl": "", "s7-300-stl": " "}
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,8 @@ from plcgen.profile.constants import Constant, ConstantGroup
 
 # STEP 7 takes two numbers of 0..15; it is the version of the blocks, not of plcgen.
 BLOCK_VERSION = "0.1"
+# What stands between the kind and the number of a block, in the sources that name blocks by number.
+NUMBERED = {"s7-300-scl": "", "s7-300-stl": " "}
 
 
 @dataclass(frozen=True)
