@@ -11,6 +11,7 @@ from plcgen.check.two_axis_model import MoveModel, Samples, TwoAxisModel
 from plcgen.plc.core import Program
 from plcgen.plc.cpu.pto import Segment
 from plcgen.plc.cpu.smart import Smart
+from plcgen.plc.machine import Variable
 
 SECOND = 1_000_000  # us
 SCAN_US = 5000
@@ -49,25 +50,33 @@ class Table:
         blocked: Sequence[tuple[int, int]] = (),
         temp_fill: int = 0,
         retained: int = 0,
+        scan_us: int = SCAN_US,
     ) -> None:
         """`retained` is what every byte of order and status holds when the power comes."""
         self.model = subject.model
+        self._variables: dict[str, Variable] = {}
         directions = dict(zip(self.model.outputs, self.model.directions, strict=True))
-        self.cpu = Smart(subject.program, SCAN_US, lateness, blocked, temp_fill, directions)
+        self.cpu = Smart(subject.program, scan_us, lateness, blocked, temp_fill, directions)
         for name in RETAINED if retained else ():
-            self.cpu.variable(self.model.addresses[name]).set(retained)
+            self.variable(name).set(retained)
         self.cpu.scan()
 
+    def variable(self, name: str) -> Variable:
+        """By its name in the memory map, or an address; looked up once."""
+        if name not in self._variables:
+            self._variables[name] = self.cpu.variable(self.model.addresses.get(name, name))
+        return self._variables[name]
+
     def get(self, name: str) -> int:
-        return int(self.cpu.variable(self.model.addresses[name]).get())
+        return int(self.variable(name).get())
 
     def order(self, x: int, y: int) -> None:
-        self.cpu.variable(self.model.addresses["distance_x"]).set(x)
-        self.cpu.variable(self.model.addresses["distance_y"]).set(y)
+        self.variable("distance_x").set(x)
+        self.variable("distance_y").set(y)
 
     def press(self, number: int) -> None:
         """An input of the example in MAIN: 0 start, 1 stop, 2 emergency stop."""
-        button = self.cpu.variable(f"I0.{number}")
+        button = self.variable(f"I0.{number}")
         button.set(True)
         self.cpu.scan()
         button.set(False)

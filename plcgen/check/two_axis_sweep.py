@@ -22,7 +22,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Sweep:
-    """Moves, those refused among them, pulses sent, pulses lost or too many, events, and what is wrong with the first."""
+    """Moves, those refused among them, pulses sent, pulses lost or too many, events, and the first that went wrong."""
 
     moves: int = 0
     refused: int = 0

@@ -315,6 +315,11 @@ class Channel:
 
     # ------------------------------------------------------------------------------------------------------ results
 
+    def forget(self) -> None:
+        """Forget the segments that were sent. Only while no train runs."""
+        assert not self._running
+        self.segments.clear()
+
     def position_at(self, times_us: NDArray[Any]) -> NDArray[np.int64]:
         """Pulses by each time; with a direction output those sent under a 1 count backwards."""
         before, signs, own = self._progress(times_us)
