@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import cycle
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from plcgen.loading import load
 from plcgen.plan import Comparison, Derivation, Files, Plan, Progress, Stretch
 from plcgen.plan_two_axis import import_check
 from plcgen.plan_two_axis import load as load_smart
+from plcgen.plc.core import Program
 from plcgen.profile.constants import ConstantGroup
 from plcgen.profile.cosine import Ramps, cosine_constants
 from plcgen.profile.cosine_comparison import comparisons
@@ -27,15 +29,15 @@ from plcgen.profile.cosine_motion import Order, follow, possible
 from plcgen.profile.cosine_move import Moves, move_constants
 from plcgen.profile.cosine_rules import derive_moves, derive_ramps
 from plcgen.render import cosine, cosine_smart
-from plcgen.render.cosine_memory import memory_map, refuse_what_does_not_fit
+from plcgen.render.cosine_memory import layout, memory_map, refuse_what_does_not_fit
 from plcgen.render.files import OutputFile
 from plcgen.targets import SMART
 from plcgen.trajectory import Trajectory
 
 TELLING_CYCLES = (1.0, 0.2, 5.0)
 """Of the sample period: at some of them each limit decides on the duration of a move."""
-GARBAGE = 0x7F
-"""Byte that fills temporaries before each call."""
+GARBAGE = (0x7F, 0x00)
+"""Bytes that fill temporaries before each call: a large REAL or nothing, one after the other with each fresh block."""
 
 
 def cosine_plan(job: Job) -> CosinePlan:
@@ -96,18 +98,28 @@ class CosinePlan(Plan):
 
     def _smart(self, files: Files) -> Callable[[], Axis]:
         program, addresses, job = load_smart(self.job, files), memory_map(self.job), self.job
-        return lambda: SmartAxis(program, addresses, job.sample_period, job.cosine.shape, GARBAGE)
+        fills = cycle(GARBAGE)
+        return lambda: _smart_axis(program, addresses, job, next(fills))
 
     def _s7(self, target: str, files: Files) -> Callable[[], Axis]:
         program, names = load(target, files), cosine.block_names(self.job, target)
         fb, db = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
-        return lambda: Instance(program, fb, db, GARBAGE)
+        fills = cycle(GARBAGE)
+        return lambda: Instance(program, fb, db, next(fills))
+
+    def reserved_bytes(self, target: str) -> int:
+        return layout(self.job).bytes if target == SMART.name else 0
 
     def reference(self) -> Trajectory:
         """The moves one after another: speed before and after the average, and its acceleration and jerk."""
         period = self.job.sample_period
         parts = [_columns(number, motion, period) for number, motion in enumerate(self.nominal(), start=1)]
         return Trajectory({name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+
+
+def _smart_axis(program: Program, addresses: Mapping[str, str], job: Job, fill: int) -> SmartAxis:
+    """V memory may be retained over a loss of power, and is as worn as the temporaries."""
+    return SmartAxis(program, addresses, job.sample_period, job.cosine.shape, fill, retained=fill)
 
 
 def _columns(number: int, motion: PlannedMotion, period: float) -> dict[str, np.ndarray]:

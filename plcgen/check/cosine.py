@@ -194,6 +194,10 @@ def _ramp_runs(subject: Subject) -> Iterator[Run]:
     yield ramp_run(subject, model, "cold start", 0.0, [Command(0, _real(0.4 * top))], worn=False)
     for name, orders in _interruptions(model, start, end, cycle):
         yield ramp_run(subject, model, name, start, orders, cycle)
+    # With all signs turned: what a block forgets of one way, such as an absolute value, shows near the end.
+    late = max(2, round(0.83 * model.samples(abs(end - start), cycle)))
+    for name, order in (("back", Command(late, -start)), ("stop", Command(late, rest=True))):
+        yield ramp_run(subject, model, f"the other way, {name}", -start, [Command(0, -end), order], cycle)
 
 
 def _interruptions(model: RampModel, start: float, end: float, cycle: float) -> Iterator[tuple[str, list[Command]]]:

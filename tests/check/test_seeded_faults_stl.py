@@ -9,31 +9,32 @@ import random
 
 import pytest
 
+from tests.check.harmless_faults_cosine_stl import SMART_MOVE, SMART_RAMP
 from tests.check.harmless_faults_stl import HARMLESS
 from tests.check.seeded_faults_stl import all_faults, survivors
 
-MODES = ("interrupt", "table")
-KNOWN = {mode: {row for rows in HARMLESS[mode].values() for row in rows} for mode in MODES}
-SAMPLE = 80
+LISTS = {**HARMLESS, "ramp": SMART_RAMP, "move": SMART_MOVE}
+KNOWN = {case: {row for rows in harmless.values() for row in rows} for case, harmless in LISTS.items()}
+SAMPLE = {"interrupt": 80, "table": 80, "ramp": 40, "move": 40}
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_every_fault_that_changes_behaviour_is_caught(mode: str) -> None:
-    faults = random.Random(2026).sample(all_faults(mode), SAMPLE)
-    harmful = [fault for fault in faults if fault.note not in KNOWN[mode]]
+@pytest.mark.parametrize("case", LISTS)
+def test_every_fault_that_changes_behaviour_is_caught(case: str) -> None:
+    faults = random.Random(2026).sample(all_faults(case), SAMPLE[case])
+    harmful = [fault for fault in faults if fault.note not in KNOWN[case]]
     assert len(harmful) >= 0.75 * len(faults)
-    assert [fault.note for fault in survivors(mode, harmful)] == []
+    assert [fault.note for fault in survivors(case, harmful)] == []
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_harmless_faults_are_faults(mode: str) -> None:
+@pytest.mark.parametrize("case", LISTS)
+def test_harmless_faults_are_faults(case: str) -> None:
     """The list holds nothing that is no longer in the program."""
-    assert sorted(KNOWN[mode] - {fault.note for fault in all_faults(mode)}) == []
+    assert sorted(KNOWN[case] - {fault.note for fault in all_faults(case)}) == []
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_harmless_faults_do_survive(mode: str) -> None:
+@pytest.mark.parametrize("case", LISTS)
+def test_harmless_faults_do_survive(case: str) -> None:
     """A sample of the list: what is caught today does not belong there."""
-    known = [fault for fault in all_faults(mode) if fault.note in KNOWN[mode]]
+    known = [fault for fault in all_faults(case) if fault.note in KNOWN[case]]
     some = random.Random(2026).sample(known, 6)
-    assert list(survivors(mode, some)) == some
+    assert list(survivors(case, some)) == some
