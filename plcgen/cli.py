@@ -6,7 +6,7 @@ import errno
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -16,10 +16,9 @@ from plcgen import __version__, terminal
 from plcgen.errors import Fault, PlcgenError
 
 if TYPE_CHECKING:
-    from plcgen.check.verdict import Check, Verdict
+    from plcgen.check.verdict import Verdict
     from plcgen.job import Job
-    from plcgen.plan import Comparison, Derivation, Plan
-    from plcgen.profile.constants import ConstantGroup
+    from plcgen.plan import Plan
 
 FAILED, BAD_INPUT = 1, 2
 # As a shell reports a program that the keyboard or a closed pipe has ended.
@@ -161,59 +160,19 @@ def derive(job: Path, as_json: bool) -> None:
     Example:
       plcgen derive hoist.toml
     """
-    from plcgen import pipeline
+    from plcgen import pipeline, tables
     from plcgen.job import read_job
 
     read = read_job(job)
-    derivation = pipeline.derivation(pipeline.prepare(read))
+    plan = pipeline.prepare(read)
+    derivation = pipeline.derivation(plan)
+    estimates = pipeline.estimates(plan, {name: pipeline.sources(plan, name) for name in read.targets})
     if as_json:
-        _print_json(_derivation_json(read, derivation))
+        _print_json({**tables.derivation_json(read, derivation), **tables.estimates_json(estimates)})
         return
-    terminal.show(_legs_table(read, derivation))
-    for group in derivation.tables:
-        terminal.show(_constants_table(group))
-    for comparison in derivation.comparisons:
-        terminal.show(_comparison_table(comparison))
-
-
-def _derivation_json(job: Job, derivation: Derivation) -> dict[str, object]:
-    legs = [vars(stretch) for stretch in derivation.stretches]
-    tables = [
-        {"title": group.title, "constants": [vars(constant) for constant in group.constants]}
-        for group in derivation.tables
-    ]
-    comparisons = [
-        {
-            "title": comparison.title,
-            "rows": [dict(zip(comparison.headings, row, strict=True)) for row in comparison.rows],
-        }
-        for comparison in derivation.comparisons
-    ]
-    head = {"job": job.name, "method": job.method, "length_unit": job.length_unit}
-    return {**head, "legs": legs, "tables": tables, "comparisons": comparisons}
-
-
-def _legs_table(job: Job, derivation: Derivation) -> terminal.Table:
-    unit, legs = job.length_unit, derivation.stretches
-    rows = [(leg.name, *map(_number, (leg.duration, leg.travel, leg.end_velocity))) for leg in legs]
-    total = ("total", _number(sum(leg.duration for leg in legs)), _number(sum(leg.travel for leg in legs)), "")
-    headings = ("leg", ">duration s", f">travel {unit}", f">end velocity {unit}/s")
-    return terminal.Table(f"{derivation.title} of {job.name}", headings, [*rows, total])
-
-
-def _constants_table(group: ConstantGroup) -> terminal.Table:
-    rows = [(c.name, _number(c.value), c.unit, c.comment, c.origin) for c in group.constants]
-    return terminal.Table(group.title, ("constant", ">value", "unit", "meaning", "equation"), rows)
-
-
-def _comparison_table(comparison: Comparison) -> terminal.Table:
-    name, *figures = comparison.headings
-    rows = [tuple(cell if isinstance(cell, str) else _number(cell) for cell in row) for row in comparison.rows]
-    return terminal.Table(comparison.title, (name, *(f">{figure}" for figure in figures)), rows)
-
-
-def _number(value: float) -> str:
-    return f"{value:.9g}"
+    for table in (*tables.derivation_tables(read, derivation), tables.estimates_table(read, estimates)):
+        terminal.show(table)
+    terminal.say("\n".join(f"{name}: {estimate.origin}" for name, estimate in estimates.items()))
 
 
 # --------------------------------------------------------------------------------------------------- verification
@@ -253,9 +212,11 @@ def generate(job: Path, output: Path | None, target: str | None, no_verify: bool
 
 def _require(verdict: Verdict) -> None:
     """Show the verdict; end here when it is not good."""
-    terminal.show(_verdict_table(verdict))
+    from plcgen import tables
+
+    terminal.show(tables.verdict_table(verdict))
     if not verdict.ok:
-        _fail(f"{_failures(verdict)}; nothing was written")
+        _fail(f"{tables.failures(verdict)}; nothing was written")
 
 
 @main.command()
@@ -270,7 +231,7 @@ def verify(job: Path, source: Path | None, target: str | None, as_json: bool) ->
     Example:
       plcgen verify hoist.toml --source sources
     """
-    from plcgen import pipeline
+    from plcgen import pipeline, tables
     from plcgen.files import read_sources
     from plcgen.job import read_job
 
@@ -280,11 +241,11 @@ def verify(job: Path, source: Path | None, target: str | None, as_json: bool) ->
     sources = read_sources(source, targets) if source else {name: pipeline.sources(plan, name) for name in targets}
     verdict = _verified(plan, sources)
     if as_json:
-        _print_json(verdict.as_json())
+        _print_json({**verdict.as_json(), **tables.estimates_json(pipeline.estimates(plan, sources))})
     else:
-        terminal.show(_verdict_table(verdict))
+        terminal.show(tables.verdict_table(verdict))
     if not verdict.ok:
-        _fail(_failures(verdict))
+        _fail(tables.failures(verdict))
 
 
 def _targets(job: Job, chosen: str | None) -> tuple[str, ...]:
@@ -310,28 +271,29 @@ def _verified(plan: Plan, sources: Mapping[str, Mapping[str, bytes]]) -> Verdict
     return Verdict(plan.job.name, verdicts)
 
 
-def _verdict_table(verdict: Verdict) -> terminal.Table:
-    rows = [_check_row(name, check) for name, target in verdict.targets.items() for check in target.checks]
-    headings = ("target", "check", ">value", ">bound", "unit", "result")
-    return terminal.Table(f"Verification of {verdict.job}", headings, rows)
+@main.command()
+@click.argument("job", type=PATH)
+@click.option("--moves", default=10_000, show_default=True, type=click.IntRange(1), metavar="N", help="How many.")
+@click.option("--seed", default=1, show_default=True, type=int, metavar="S", help="Of the random numbers.")
+def sweep(job: Path, moves: int, seed: int) -> None:
+    """Run random moves of a two-axis job with its pulse outputs, on all cores, and count lost pulses.
 
+    \b
+    Example:
+      plcgen sweep table.toml --moves 1000000 --seed 7
+    """
+    from plcgen import tables
+    from plcgen.check.two_axis_sweep import Sweep
+    from plcgen.job import read_job
+    from plcgen.sweeps import run_sweep
 
-def _check_row(target: str, check: Check) -> tuple[str, ...]:
-    # + 0.0 turns -0.0 into 0.0
-    bound = f"{'>=' if check.at_least else '<='} {check.bound + 0.0:.4g}"
-    result = terminal.OK if check.ok else terminal.FAILED
-    return (target, check.name, f"{check.value + 0.0:.4g}", bound, check.unit, result)
-
-
-def _failures(verdict: Verdict) -> str:
-    counts = {name: f"{len(target.failed)} of {len(target.checks)}" for name, target in verdict.targets.items()}
-    bad = [f"{counts[name]} checks failed for {name}" for name, target in verdict.targets.items() if not target.ok]
-    details = [f"    {name}: {check.name}: {check.detail}" for name, check in _failed(verdict) if check.detail]
-    return "\n".join([", ".join(bad), *details])
-
-
-def _failed(verdict: Verdict) -> Iterable[tuple[str, Check]]:
-    return ((name, check) for name, target in verdict.targets.items() for check in target.failed)
+    found = Sweep()
+    with terminal.progress_bar(moves) as progress:
+        for found in run_sweep(read_job(job), moves, seed):
+            progress(found.moves)
+    terminal.show(tables.sweep_table(found))
+    if not found.ok:
+        _fail(found.finding)
 
 
 @main.command()

@@ -7,21 +7,37 @@ from collections.abc import Mapping
 from plcgen.plc.core import Program
 from plcgen.plc.scl import lowering as scl
 from plcgen.plc.scl import parser as scl_parser
-from plcgen.plc.scl.dialects import CLASSIC, TIA
-from plcgen.plc.source import decode_source
+from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect
+from plcgen.plc.scl.syntax import Block as SclBlock
+from plcgen.plc.source import SourceText, decode_source
 from plcgen.plc.stl import s7_lowering as stl
 from plcgen.plc.stl import s7_parser as stl_parser
+from plcgen.plc.stl.s7_syntax import Block as StlBlock
 from plcgen.targets import TARGETS
 
 DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
-    """Parse and lower every source file of a target for S7-300 or TIA; the example that calls the blocks comes last."""
-    row = TARGETS[target]
-    names = sorted((name for name in files if name.endswith(row.suffix)), key=lambda name: ("_example" in name, name))
-    sources = [decode_source(name, files[name]) for name in names]
-    if row.dialect == "stl":
-        return stl.lower([block for source in sources for block in stl_parser.parse(source)])
-    dialect = DIALECTS[row.dialect]
-    return scl.lower([block for source in sources for block in scl_parser.parse(source, dialect)], dialect)
+    """Parse and lower every source file of a target for S7-300 or TIA."""
+    if TARGETS[target].dialect == "stl":
+        return stl.lower(read_stl(files))
+    return scl.lower(*read_scl(target, files))
+
+
+def read_stl(files: Mapping[str, bytes]) -> list[StlBlock]:
+    """The blocks of all STL sources; those of the example that calls the others come last."""
+    return [block for source in _sources("s7-300-stl", files) for block in stl_parser.parse(source)]
+
+
+def read_scl(target: str, files: Mapping[str, bytes]) -> tuple[list[SclBlock], Dialect]:
+    """The blocks of all SCL sources of a target, in the same order, and their dialect."""
+    dialect = DIALECTS[TARGETS[target].dialect]
+    return [block for source in _sources(target, files) for block in scl_parser.parse(source, dialect)], dialect
+
+
+def _sources(target: str, files: Mapping[str, bytes]) -> list[SourceText]:
+    names = sorted(
+        (name for name in files if name.endswith(TARGETS[target].suffix)), key=lambda name: ("_example" in name, name)
+    )
+    return [decode_source(name, files[name]) for name in names]

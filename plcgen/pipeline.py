@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
+from plcgen.check.binary_result import binary_result
 from plcgen.check.verdict import Check, TargetVerdict
+from plcgen.estimates import Estimate
 from plcgen.job import Job
+from plcgen.loading import read_stl
 from plcgen.plan import Derivation, Files, Plan, Progress
 from plcgen.plan_cosine import cosine_plan
 from plcgen.plan_hoist import HoistPlan
@@ -32,6 +35,11 @@ def sources(plan: Plan, target: str, verified: bool = True) -> dict[str, bytes]:
     return plan.sources(target, verified)
 
 
+def estimates(plan: Plan, sources: Mapping[str, Files]) -> dict[str, Estimate]:
+    """Run time and memory of sources by target. Raises SourceError."""
+    return {target: plan.estimate(target, files) for target, files in sources.items()}
+
+
 def verify(
     plan: Plan, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
 ) -> TargetVerdict:
@@ -39,7 +47,7 @@ def verify(
     verdict = plan.verify(target, files, progress, fail_fast)
     if target != STL or (fail_fast and not verdict.ok):
         return verdict
-    return TargetVerdict((*verdict.checks, agreement(plan, files)))
+    return TargetVerdict((*verdict.checks, binary_result(read_stl(files)), agreement(plan, files)))
 
 
 def agreement(plan: Plan, files: Files) -> Check:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from plcgen.check.verdict import TargetVerdict
+from plcgen.estimates import Estimate, estimate, estimate_context
 from plcgen.job import Job
 from plcgen.profile.constants import ConstantGroup
 from plcgen.render.environment import render
@@ -82,14 +83,24 @@ class Plan(ABC):
 
     def sources(self, target: str, verified: bool = True) -> dict[str, bytes]:
         """Files of a target by name, encoded as its engineering tool reads them."""
-        row = TARGETS[target]
         context = self.context(target, verified)
-        files = {}
-        for file in self.outputs(target):
-            text = finished(self.job, row, file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
-            encoding = "utf-8" if file.name.endswith(".md") else row.encoding
-            files[file.name] = text.replace("\n", row.newline).encode(encoding)
-        return files
+        code = {file.name: self._file(target, file, context) for file in self.outputs(target) if not file.is_note}
+        told = estimate_context(self.estimate(target, code), self.job.sample_period)
+        notes = {file.name: self._file(target, file, context | told) for file in self.outputs(target) if file.is_note}
+        return code | notes
+
+    def _file(self, target: str, file: OutputFile, context: dict[str, object]) -> bytes:
+        row = TARGETS[target]
+        text = finished(self.job, row, file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
+        return text.replace("\n", row.newline).encode("utf-8" if file.is_note else row.encoding)
+
+    def estimate(self, target: str, files: Files) -> Estimate:
+        """Run time and memory of the sources of a target."""
+        return estimate(target, files, self.reserved_bytes(target))
+
+    def reserved_bytes(self, _target: str) -> int:
+        """V memory that the program takes; other targets keep their data in blocks of their own."""
+        return 0
 
 
 def finished(job: Job, target: Target, file: OutputFile, text: str) -> str:

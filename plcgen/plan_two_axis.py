@@ -35,7 +35,7 @@ from plcgen.profile.two_axis import (
 from plcgen.profile.two_axis_rules import derive
 from plcgen.render.files import OutputFile
 from plcgen.render.two_axis import output_files, two_axis_context
-from plcgen.render.two_axis_memory import memory_map, refuse_what_does_not_fit
+from plcgen.render.two_axis_memory import layout, memory_map, refuse_what_does_not_fit
 from plcgen.trajectory import Trajectory
 
 
@@ -71,6 +71,9 @@ class TwoAxisPlan(Plan):
     ) -> TargetVerdict:
         checks = (import_check(files), *verify_two_axis(self.subject(files), progress, fail_fast).checks)
         return TargetVerdict(checks)
+
+    def reserved_bytes(self, _target: str) -> int:
+        return layout(self.job).bytes
 
     def reference(self) -> Trajectory:
         """The moves one after another: travel, speed and acceleration of the leading axis."""

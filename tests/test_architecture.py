@@ -38,7 +38,18 @@ MAY_IMPORT = {
     "plc": {"plc", "errors"},
     "check": {"check", "plc", "job", "trajectory", "errors"},
 }
-SUBPACKAGES = {"profile", "render", "plc", "plc.scl", "plc.stl", "plc.cpu", "plc.importrules", "check", "report"}
+SUBPACKAGES = {
+    "profile",
+    "render",
+    "plc",
+    "plc.scl",
+    "plc.stl",
+    "plc.cpu",
+    "plc.effort",
+    "plc.importrules",
+    "check",
+    "report",
+}
 HEAVY = ("numpy", "pydantic", "tree_sitter", "jinja2", "rich")
 
 

@@ -185,6 +185,9 @@ def test_json_of_a_verification(verdict: dict[str, TargetVerdict]) -> None:
     result = plcgen("verify", JOB, "--json")
     assert result.exit_code == 1
     said = json.loads(result.output[: result.output.rindex("}") + 1])
+    estimates = said.pop("estimates")
+    assert list(estimates) == list(verdict)
+    assert [time["cpu"] for time in estimates["s7-300-stl"]["run_times"]] == ["CPU 314", "CPU 315-2DP", "CPU 317"]
     check = {"name": "stop_error", "value": 0.0002, "bound": 0.001, "unit": "m", "ok": True}
     assert said == {
         "ok": False,

@@ -95,8 +95,8 @@ class Builder:
     def place(self, label: str) -> None:
         self.emit(Label(self.span, label))
 
-    def jump(self, label: str) -> None:
-        self.emit(Jump(self.span, label))
+    def jump(self, label: str, passes: int | None = None) -> None:
+        self.emit(Jump(self.span, label, passes))
 
     def branch(self, condition: Operand, label: str, when: bool) -> None:
         self.emit(Branch(self.span, condition, label, when))

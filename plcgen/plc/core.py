@@ -97,8 +97,11 @@ class Label:
 
 @dataclass(frozen=True)
 class Jump:
+    """Go on at the label. `passes`: how often at the most before a loop ends, where the text says so."""
+
     span: Span
     label: str
+    passes: int | None = None
 
 
 @dataclass(frozen=True)

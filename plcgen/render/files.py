@@ -12,3 +12,8 @@ class OutputFile:
     template: str
     name: str
     purpose: str
+
+    @property
+    def is_note(self) -> bool:
+        """Text for people, beside the sources."""
+        return self.name.endswith(".md")

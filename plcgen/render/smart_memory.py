@@ -64,6 +64,11 @@ class MemoryMap:
         """The first V byte behind the map."""
         return self.first_byte + sum(map(self.size, self.rows))
 
+    @property
+    def bytes(self) -> int:
+        """V memory that it takes."""
+        return self.end - self.first_byte
+
     def addresses(self) -> dict[str, str]:
         """Address of every variable and bit by its name in the templates."""
         found: dict[str, str] = {}
@@ -85,7 +90,7 @@ class MemoryMap:
 
     def refuse_what_does_not_fit(self, job: Job, key: str) -> None:
         """V memory, whose first byte the job gives at `key`, and the length of symbols. Raises JobError."""
-        taken = self.end - self.first_byte
+        taken = self.bytes
         if self.end > HIGHEST_V_BYTE + 1:
             raise job.error(
                 key,

@@ -45,6 +45,15 @@ def _spelt(label: range) -> str:
     return f"{label.start}" if len(label) == 1 else f"{label.start} .. {label.stop - 1}"
 
 
+def _passes(first: Operand, end: Operand, step: Operand) -> int | None:
+    """How often a FOR runs, where all its bounds are constants."""
+    numbers = [int(bound.value) for bound in (first, end, step) if isinstance(bound, Literal)]
+    if len(numbers) < 3 or not numbers[2]:
+        return None
+    start, last, stride = numbers
+    return len(range(start, last + (1 if stride > 0 else -1), stride))
+
+
 class Statements(Calls):
     """Lowers the body of a block."""
 
@@ -219,7 +228,8 @@ class Statements(Calls):
         variable = self.place(node.variable)
         if variable.type not in INTEGERS:
             raise self.source.error(f"FOR needs an INT or DINT variable, not {variable.type}", node.variable.span)
-        self.builder.move(variable, self.operand(node.start, variable.type))
+        first = self.operand(node.start, variable.type)
+        self.builder.move(variable, first)
         end = self._constant_or_kept(node.end, variable.type)
         step = self._constant_or_kept(node.step, variable.type) if node.step else Literal(1, variable.type)
         loop, start = self._enter(), self.builder.label()
@@ -230,7 +240,7 @@ class Statements(Calls):
         self.builder.span = node.span
         self.builder.place(loop.repeat)
         self.builder.move(variable, self._row("+", variable, step))
-        self.builder.jump(start)
+        self.builder.jump(start, _passes(first, end, step))
         self._leave(loop)
 
     def _constant_or_kept(self, node: syntax.Expression, kind: Type) -> Operand:
