@@ -5,8 +5,6 @@ A case is a folder with `job.toml`, `<target>/` with the sources, `reference.csv
 
 from __future__ import annotations
 
-import os
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import unified_diff
@@ -18,6 +16,7 @@ from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.errors import PlcgenError
 from plcgen.files import write_files
 from plcgen.job import read_job
+from plcgen.processes import in_processes
 from plcgen.trajectory import Trajectory, disagreements
 
 JOB = "job.toml"
@@ -67,40 +66,7 @@ def find_cases(folder: Path) -> list[Path]:
 
 
 def _each(cases: list[Path], update: bool) -> Iterator[CaseReport]:
-    workers = min(len(cases), os.cpu_count() or 1)
-    if workers == 1:
-        yield from (check_case(case, update) for case in cases)
-        return
-    yield from _in_processes(cases, update, workers)
-
-
-def _in_processes(cases: list[Path], update: bool, workers: int) -> Iterator[CaseReport]:
-    import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
-
-    context = multiprocessing.get_context("spawn")
-    threading.excepthook = _unless_interrupted
-    with ProcessPoolExecutor(workers, context, _die_quietly) as pool:
-        try:
-            yield from pool.map(check_case, cases, [update] * len(cases))
-        except BrokenProcessPool:
-            raise PlcgenError("a process that checked a case has died; is there enough memory?") from None
-
-
-def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
-    """After an interrupt the pool's thread stumbles over results that were called off; that is nobody's concern."""
-    from concurrent.futures import InvalidStateError
-
-    if event.exc_type is not InvalidStateError:
-        threading.__excepthook__(event)
-
-
-def _die_quietly() -> None:
-    """An interrupt from the keyboard reaches the workers too; the parent alone speaks of it."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    return in_processes(check_case, cases, [update] * len(cases))
 
 
 # ----------------------------------------------------------------------------------------------------------- case

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from functools import lru_cache
 from math import exp, log
 from random import Random
@@ -14,6 +13,7 @@ from plcgen.errors import PlcgenError
 from plcgen.job import Job, parse_job
 from plcgen.jobfile_two_axis import Move
 from plcgen.plan_two_axis import TwoAxisPlan
+from plcgen.processes import in_processes
 from plcgen.profile.two_axis import full_distance, limits_of, ordered, pulses_of
 
 TARGET = "s7-200-smart"
@@ -56,12 +56,11 @@ def run_sweep(job: Job, moves: int, seed: int) -> Iterator[Sweep]:
     if job.method != "two-axis":
         raise PlcgenError(f'sweep runs moves of method "two-axis"; the job has "{job.method}"')
     shares = [min(SHARE, moves - first) for first in range(0, moves, SHARE)]
+    names = [f"{seed}:{number}" for number in range(len(shares))]
     total = Sweep()
-    with ProcessPoolExecutor() as pool:
-        tasks = ((job.text.text, job.text.name, f"{seed}:{number}", count) for number, count in enumerate(shares))
-        for found in pool.map(_share, *zip(*tasks, strict=True)):
-            total += found
-            yield total
+    for found in in_processes(_share, [job.text.text] * len(shares), [job.text.name] * len(shares), names, shares):
+        total += found
+        yield total
 
 
 def _share(text: str, file: str, seed: str, count: int) -> Sweep:

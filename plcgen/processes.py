@@ -1,0 +1,53 @@
+"""Work shared out to the cores, and what an interrupt from the keyboard does to it."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeVar
+
+from plcgen.errors import PlcgenError
+
+T = TypeVar("T")
+
+
+def in_processes(function: Callable[..., T], *columns: Sequence[Any]) -> Iterator[T]:
+    """function(*row) for each row of the columns, in their order; on one core, or for one row, right here.
+
+    Raises PlcgenError when a process has died.
+    """
+    workers = min(len(columns[0]), os.cpu_count() or 1)
+    if workers <= 1:
+        yield from map(function, *columns)
+        return
+    yield from _shared_out(function, columns, workers)
+
+
+def _shared_out(function: Callable[..., T], columns: Sequence[Sequence[Any]], workers: int) -> Iterator[T]:
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
+    context = multiprocessing.get_context("spawn")
+    threading.excepthook = _unless_interrupted
+    with ProcessPoolExecutor(workers, context, _die_quietly) as pool:
+        try:
+            yield from pool.map(function, *columns)
+        except BrokenProcessPool:
+            raise PlcgenError("a process that did a share of the work has died; is there enough memory?") from None
+
+
+def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
+    """After an interrupt the pool's thread stumbles over results that were called off; that is nobody's concern."""
+    from concurrent.futures import InvalidStateError
+
+    if event.exc_type is not InvalidStateError:
+        threading.__excepthook__(event)
+
+
+def _die_quietly() -> None:
+    """An interrupt from the keyboard reaches the workers too; the parent alone speaks of it."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
