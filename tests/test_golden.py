@@ -170,7 +170,7 @@ def test_cases_in_processes(tmp_path: Path) -> None:
     for name in ("b", "a"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "job.toml").write_text("name = 1")
-    reports = list(golden._in_processes(golden.find_cases(tmp_path), False, 2))
+    reports = list(golden._each(golden.find_cases(tmp_path), False))
     assert [(report.case, bool(report.error)) for report in reports] == [("a", True), ("b", True)]
 
 
