@@ -2,88 +2,24 @@
 
 from __future__ import annotations
 
-import errno
 import json
-import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import click
 
 from plcgen import __version__, terminal
-from plcgen.errors import Fault, PlcgenError
+from plcgen.errors import PlcgenError
+from plcgen.outcome import BAD_INPUT, FAILED, Commands
 
 if TYPE_CHECKING:
     from plcgen.check.verdict import Verdict
     from plcgen.job import Job
-    from plcgen.plan import Plan
-
-FAILED, BAD_INPUT = 1, 2
-# As a shell reports a program that the keyboard or a closed pipe has ended.
-INTERRUPTED, PIPE_CLOSED = 130, 141
-DEBUG = "PLCGEN_DEBUG"
-"""Environment variable: set to anything, an error inside plcgen itself shows its traceback."""
+    from plcgen.plan import Files, Plan
 
 PATH = click.Path(path_type=Path)
-
-
-class Commands(click.Group):
-    """Turns whatever goes wrong into one message and an exit code."""
-
-    def main(self, *args: Any, **extra: Any) -> Any:
-        terminal.prepare_streams()
-        return super().main(*args, **extra)
-
-    def invoke(self, ctx: click.Context) -> Any:
-        try:
-            result = super().invoke(ctx)
-            sys.stdout.flush()
-        except (click.ClickException, click.exceptions.Exit, click.Abort):
-            raise
-        except KeyboardInterrupt:
-            raise click.exceptions.Exit(INTERRUPTED) from None
-        except Exception as error:
-            raise click.exceptions.Exit(_exit_code(error)) from error
-        return result
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args[0] not in self.commands and not args[0].startswith("-"):
-            from plcgen.names import nearest
-
-            near = nearest(args[0], self.commands)
-            known = f'write "{near}"' if near else f"there is {', '.join(self.list_commands(ctx))}"
-            raise click.UsageError(f'unknown command "{terminal.printable(args[0])}"; {known}', ctx)
-        return super().resolve_command(ctx, args)
-
-    def list_commands(self, _ctx: click.Context) -> list[str]:
-        return list(self.commands)
-
-
-def _exit_code(error: Exception) -> int:
-    """Say what went wrong."""
-    if isinstance(error, PlcgenError):
-        terminal.tell(f"error: {error}")
-        return FAILED if isinstance(error, Fault) else BAD_INPUT
-    if isinstance(error, OSError):
-        return _system_error(error)
-    if os.environ.get(DEBUG):
-        raise error
-    terminal.tell(f"error: {type(error).__name__} inside plcgen: {error}; set {DEBUG}=1 to see where, and report it")
-    return BAD_INPUT
-
-
-def _system_error(error: OSError) -> int:
-    if error.errno == errno.EPIPE:
-        # Python flushes stdout once more at its end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return PIPE_CLOSED
-    place = f"{error.filename}: " if error.filename else ""
-    terminal.tell(f"error: {place}{error.strerror or error}")
-    return BAD_INPUT
 
 
 def _fail(message: str) -> NoReturn:
@@ -224,7 +160,8 @@ def _require(verdict: Verdict) -> None:
 @click.option("--source", type=PATH, metavar="DIR", help="Verify the files in DIR/<target> or DIR instead.")
 @TARGET
 @click.option("--json", "as_json", is_flag=True, help="JSON on stdout.")
-def verify(job: Path, source: Path | None, target: str | None, as_json: bool) -> None:
+@click.option("--report", type=PATH, metavar="FILE", help="Write a report as `plcgen report` does.")
+def verify(job: Path, source: Path | None, target: str | None, as_json: bool, report: Path | None) -> None:
     """Execute the sources of a job scan by scan against the reference.
 
     \b
@@ -237,15 +174,69 @@ def verify(job: Path, source: Path | None, target: str | None, as_json: bool) ->
 
     read = read_job(job)
     targets = _targets(read, target)
+    if report:
+        _prepare_report(report)
     plan = pipeline.prepare(read)
     sources = read_sources(source, targets) if source else {name: pipeline.sources(plan, name) for name in targets}
     verdict = _verified(plan, sources)
+    if report:
+        _write_report(plan, sources, verdict, report)
     if as_json:
         _print_json({**verdict.as_json(), **tables.estimates_json(pipeline.estimates(plan, sources))})
     else:
         terminal.show(tables.verdict_table(verdict))
     if not verdict.ok:
         _fail(tables.failures(verdict))
+
+
+@main.command()
+@click.argument("job", type=PATH)
+@click.option("-o", "--output", type=PATH, metavar="FILE", help="HTML to write; default the name of the job.")
+@click.option("--png", type=PATH, metavar="DIR", help="Write the pictures alone, too.")
+@TARGET
+def report(job: Path, output: Path | None, png: Path | None, target: str | None) -> None:
+    """Verify a job and write one page that shows it all: verdict, motion, checks, constants, sources.
+
+    \b
+    Example:
+      plcgen report hoist.toml -o hoist.html --png pictures
+    """
+    from plcgen import pipeline, tables
+    from plcgen.job import read_job
+
+    read = read_job(job)
+    path = output or Path(f"{read.name}.html")
+    targets = _targets(read, target)
+    _prepare_report(path)
+    plan = pipeline.prepare(read)
+    sources = {name: pipeline.sources(plan, name) for name in targets}
+    verdict = _verified(plan, sources)
+    _write_report(plan, sources, verdict, path, png)
+    if not verdict.ok:
+        _fail(tables.failures(verdict))
+
+
+def _prepare_report(path: Path) -> None:
+    """Say what stands in the way of a report before the long work begins."""
+    from plcgen.files import check_folder
+    from plcgen.report.page import require_libraries
+
+    require_libraries()
+    check_folder(path.parent)
+
+
+def _write_report(
+    plan: Plan, sources: Mapping[str, Files], verdict: Verdict, path: Path, png: Path | None = None
+) -> None:
+    from plcgen.files import write_file, write_files
+    from plcgen.report.page import figures_of, page, pictures_of
+
+    figures = figures_of(plan, sources)
+    pictures = pictures_of(plan.job.name, figures) if png else {}
+    write_file(path, page(plan, sources, verdict, figures).encode())
+    if png:
+        write_files(png, pictures)
+    terminal.tell("\n".join(f"wrote {file}" for file in (path, *(png / name for name in pictures if png))))
 
 
 def _targets(job: Job, chosen: str | None) -> tuple[str, ...]:

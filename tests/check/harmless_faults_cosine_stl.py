@@ -141,7 +141,6 @@ SMART_MOVE: dict[str, tuple[str, ...]] = {
     ),
     ROUNDS_UP: ("Sample 19 | TRUNC samples steps -> ROUND samples steps", "Sample 19 | DTR steps h1 -> nothing"),
     SECOND_HALF: (
-        "Sample 25 | LD SM0.0 -> LDN SM0.0",
         "Sample 25 | +D step twice -> -D step twice",
         "Sample 25 | +D step twice -> nothing",
     ),
