@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Callable, Sequence
-from struct import Struct
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 from plcgen.plc.operators import Operator
 from plcgen.plc.types import Value, round_real
@@ -93,12 +92,19 @@ def _dt_to_ms(packed: int) -> int:
     return ((hour * 60 + minute) * 60 + second) * 1000 + hundredths * 10 + (packed >> 4 & 15)
 
 
-_SINGLE, _SINGLE_BITS = Struct(">f"), Struct(">I")
-_DOUBLE, _DOUBLE_BITS = Struct(">d"), Struct(">Q")
+Code = Literal["f", "I", "d", "Q"]
 
 
-def _recode(source: Struct, target: Struct) -> Callable[[Any], Any]:
-    return lambda value: target.unpack(source.pack(value))[0]
+def _recode(source: Code, target: Code, size: int) -> Callable[[Any], Any]:
+    """The same bits read as another type, both by their codes in a memory view."""
+    cell = memoryview(bytearray(size))
+    written, read = cell.cast(source), cell.cast(target)
+
+    def recoded(value: Any) -> Any:
+        written[0] = value
+        return read[0]
+
+    return recoded
 
 
 def _characters(text: bytes) -> bytes:
@@ -131,10 +137,10 @@ _PURE: dict[str, Any] = {
     "trunc": math.trunc,
     "ceil": math.ceil,
     "floor": math.floor,
-    "real_to_bits": _recode(_SINGLE, _SINGLE_BITS),
-    "bits_to_real": _recode(_SINGLE_BITS, _SINGLE),
-    "lreal_to_bits": _recode(_DOUBLE, _DOUBLE_BITS),
-    "bits_to_lreal": _recode(_DOUBLE_BITS, _DOUBLE),
+    "real_to_bits": _recode("f", "I", 4),
+    "bits_to_real": _recode("I", "f", 4),
+    "lreal_to_bits": _recode("d", "Q", 8),
+    "bits_to_lreal": _recode("Q", "d", 8),
     "s5time_to_ms": _s5time_to_ms,
     "ms_to_s5time": _ms_to_s5time,
     "dt_to_days": _dt_to_days,

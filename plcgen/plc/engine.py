@@ -11,8 +11,9 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import accumulate
-from types import MappingProxyType
+from types import CodeType, MappingProxyType
 from typing import Any, NamedTuple, NoReturn
 
 from plcgen.errors import Fault, Location
@@ -85,7 +86,7 @@ class Engine:
         for name, function in program.functions.items():
             translator = _Translator(function, functions, areas, self._sites, temp_fill)
             self._sources[name] = text = translator.text()
-            exec(compile(text, f"<{name}>", "exec"), namespace)
+            exec(_compiled(text, name), namespace)
             self._functions[name] = namespace[functions[name]]
 
     def _namespace(
@@ -116,6 +117,12 @@ class Engine:
     def _stop(self, message: str, site: int) -> NoReturn:
         place = self._sites[site]
         raise Fault(f"{place.function.name}: {message}", place.location)
+
+
+@lru_cache(maxsize=256)
+def _compiled(text: str, name: str) -> CodeType:
+    """Machines of one program share what is compiled."""
+    return compile(text, f"<{name}>", "exec")
 
 
 class _Names:

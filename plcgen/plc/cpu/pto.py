@@ -126,8 +126,8 @@ class Channel:
         self._seen_direction: bool | None = None
         self._now = 0
         self._trains = 0
-        self._first = 0
-        """Place of the running train's first segment."""
+        self._first = self._current = 0
+        """Places of the running train's first segment, and of the one that was last seen to run."""
         self._running = False
         self._multi = False
         self._stop_at: float | None = None
@@ -173,17 +173,19 @@ class Channel:
         self._now = now
         port, special = self.port, self._special
         special[port.status] = special[port.status] & 0x70 | self._flags | (0 if self._running else IDLE)
-        special[port.segment] = self._running_number()
+        special[port.segment] = self._running_number() if self._running else 0
         self._flags = 0
 
     def _running_number(self) -> int:
-        if not self._running:
-            return 0
-        train = self.segments[self._first :]
-        return next((n for n, segment in enumerate(train, 1) if segment.end > self._now), len(train))
+        """Of the segment that runs, from 1 on; time only goes forward."""
+        last = len(self.segments) - 1
+        while self._current < last and self.segments[self._current].end <= self._now:
+            self._current += 1
+        return min(self._current, last) - self._first + 1
 
-    def watch_direction(self) -> None:
+    def watch_direction(self, now: int) -> None:
         """Note a direction output that changed under a running train."""
+        self._now = now
         if self._running and self._direction is not None:
             bit = self._direction()
             if bit != self._seen_direction:
@@ -289,7 +291,8 @@ class Channel:
         self._special[self.port.status] &= 0x40
 
     def _begin(self, start: float, entries: list[tuple[int, int, int]], multi: bool) -> None:
-        self._first, self._multi, self._running = len(self.segments), multi, True
+        self._first = self._current = len(self.segments)
+        self._multi, self._running = multi, True
         bit = self._seen_direction = self._direction() if self._direction is not None else None
         for first, last, pulses in entries:
             duration = 2 * SECOND * pulses / (first + last)

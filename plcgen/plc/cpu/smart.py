@@ -152,6 +152,7 @@ class Smart:
         self._next_scan = 0
         given = directions or {}
         self.channels: Mapping[str, Channel] = {name: self._channel(name, given.get(name)) for name in PORTS}
+        self._channels = tuple(self.channels.values())
         self._by_event = {PORTS[name].event: channel for name, channel in self.channels.items()}
         self._refresh()
 
@@ -187,6 +188,7 @@ class Smart:
         self._advance(self._next_scan)
         self._main()
         self._advance(self._next_scan)
+        self._refresh()
 
     def run_until(self, time_us: int) -> None:
         """Scans and interrupts up to and with a time; the last scan may be on the way then."""
@@ -194,6 +196,7 @@ class Smart:
             self._advance(self._next_scan)
             self._main()
         self._advance(time_us)
+        self._refresh()
 
     def run_interrupt(self, event: int) -> None:
         """Run the routine that is attached to an event, here and now: one sample after another, without time."""
@@ -240,12 +243,13 @@ class Smart:
     def _refresh(self) -> None:
         self._special[0] |= ALWAYS_ON
         self._special[4] = self._special[4] & ~INTERRUPTS_ENABLED | (INTERRUPTS_ENABLED if self._enabled else 0)
-        for channel in self.channels.values():
+        for channel in self._channels:
             channel.refresh(self.time_us)
 
     def _watch_directions(self) -> None:
-        for channel in self.channels.values():
-            channel.watch_direction()
+        for channel in self._channels:
+            if channel.busy:
+                channel.watch_direction(self.time_us)
 
     def _stop(self) -> None:
         raise _StopMode
@@ -262,15 +266,18 @@ class Smart:
             self._notice()
             self._serve()
         self.time_us = max(self.time_us, until)
-        self._refresh()
 
     def _next_moment(self) -> int:
         """When something next happens, far off when nothing will."""
-        moments = [ticks.due for ticks in self._ticks.values()]
-        moments += [math.ceil(c.next_change) for c in self.channels.values() if c.busy]
+        moment = _NEVER
+        for ticks in self._ticks.values():
+            moment = min(moment, ticks.due)
+        for channel in self._channels:
+            if channel.busy:
+                moment = min(moment, math.ceil(channel.next_change))
         if self._queue and self._enabled:
-            moments.append(self._free_from(self.time_us))
-        return min(moments, default=_NEVER)
+            moment = min(moment, self._free_from(self.time_us))
+        return moment
 
     def _free_from(self, time: int) -> int:
         """The first moment from a time on when an interrupt can start."""
