@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from plcgen import __version__, terminal
+from plcgen import __version__, completion, terminal
 from plcgen.errors import PlcgenError
 from plcgen.outcome import BAD_INPUT, FAILED, Commands
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from plcgen.plan import Files, Plan
 
 PATH = click.Path(path_type=Path)
+SCHEMA = "plcgen.schema.json"
+"""What the first line of an example job names."""
 
 
 def _fail(message: str) -> NoReturn:
@@ -44,24 +46,28 @@ def main() -> None:
 
 
 @main.command()
-@click.argument("method")
+@click.argument("method", shell_complete=completion.methods)
 @click.option("-o", "--output", type=PATH, metavar="JOB", help="File to write; default METHOD.toml.")
 def new(method: str, output: Path | None) -> None:
-    """Write a commented example job. A file that exists is left alone.
+    """Write a commented example job, and beside it the schema that editors check it against.
+
+    A job that exists is left alone.
 
     \b
     Example:
       plcgen new hoist -o shaft.toml
     """
-    from plcgen.files import write_file
+    from plcgen.files import write_files
+    from plcgen.job import job_schema
     from plcgen.render.environment import template_folder
 
     _require_method(method)
     path = output or Path(f"{method}.toml")
     if path.exists():
         raise PlcgenError(f"{path}: exists already; name another file with -o")
-    write_file(path, (template_folder() / "jobs" / f"{method}.toml").read_bytes())
-    terminal.say(f"wrote {path}")
+    job = (template_folder() / "jobs" / f"{method}.toml").read_bytes()
+    write_files(path.parent, {path.name: job, SCHEMA: _json(job_schema()).encode()})
+    terminal.say(f"wrote {path}\nwrote {path.with_name(SCHEMA)}")
 
 
 def _require_method(method: str) -> None:
@@ -84,6 +90,19 @@ def schema() -> None:
     from plcgen.job import job_schema
 
     _print_json(job_schema())
+
+
+@main.command("completion")
+@click.argument("shell", shell_complete=completion.shells)
+def completion_script(shell: str) -> None:
+    """Print the script that completes commands, options, methods and targets in a shell.
+
+    \b
+    Example:
+      plcgen completion bash >> ~/.bashrc
+      plcgen completion powershell >> $PROFILE
+    """
+    print(completion.script(main, shell), end="")
 
 
 @main.command()
@@ -113,7 +132,7 @@ def derive(job: Path, as_json: bool) -> None:
 
 # --------------------------------------------------------------------------------------------------- verification
 
-TARGET = click.option("--target", metavar="T", help="One target of the job only.")
+TARGET = click.option("--target", metavar="T", help="One target of the job only.", shell_complete=completion.targets)
 
 
 @main.command()
@@ -318,7 +337,12 @@ def check(folder: Path, update: bool) -> None:
 
 @main.command()
 @click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
-@click.option("--target", metavar="T", help="Import rules of this target; default what the text looks like.")
+@click.option(
+    "--target",
+    metavar="T",
+    help="Import rules of this target; default what the text looks like.",
+    shell_complete=completion.targets,
+)
 def lint(files: tuple[Path, ...], target: str | None) -> None:
     """Check SCL, S7-300 STL and S7-200 SMART sources: syntax, types, what STEP 7, TIA and Micro/WIN refuse at import.
 
@@ -396,5 +420,9 @@ def _assignment(text: str) -> tuple[str, str]:
 
 
 def _print_json(data: object) -> None:
-    # ASCII, so that no console and no code page can spoil it.
-    print(json.dumps(data, indent=2))
+    print(_json(data), end="")
+
+
+def _json(data: object) -> str:
+    """In ASCII, so that no console and no code page can spoil it."""
+    return json.dumps(data, indent=2) + "\n"

@@ -62,7 +62,7 @@ def test_every_command_shows_an_example(command: str) -> None:
     ("arguments", "words"),
     [
         (["verfy", JOB], 'unknown command "verfy"; write "verify"'),
-        (["xyzzy"], 'unknown command "xyzzy"; there is new, schema, derive'),
+        (["xyzzy"], 'unknown command "xyzzy"; there is new, schema, completion'),
         (["new", "host"], 'unknown method "host"; write "hoist"'),
         (["new", "two_axis"], 'unknown method "two_axis"; write "two-axis"'),
         (["new", "planetary"], 'unknown method "planetary"; write "hoist", "cosine" or "two-axis"'),
@@ -85,7 +85,10 @@ def test_bad_usage_ends_with_2_and_the_way_out(arguments: list[str], words: str)
 def test_new_writes_a_job_that_verifies_as_it_stands(tmp_path: Path) -> None:
     job = tmp_path / "Schacht 1" / "é.toml"
     job.parent.mkdir()
-    assert plcgen("new", "hoist", "-o", str(job)).output == f"wrote {job}\n"
+    schema = job.with_name("plcgen.schema.json")
+    assert plcgen("new", "hoist", "-o", str(job)).output == f"wrote {job}\nwrote {schema}\n"
+    assert job.read_text("utf-8").splitlines()[0] == f"#:schema {schema.name}"
+    assert schema.read_text("ascii") == plcgen("schema").output
     assert plcgen("derive", str(job)).exit_code == 0
     again = plcgen("new", "hoist", "-o", str(job))
     assert again.exit_code == 2
@@ -94,7 +97,7 @@ def test_new_writes_a_job_that_verifies_as_it_stands(tmp_path: Path) -> None:
 
 def test_new_writes_a_two_axis_job_that_derives(tmp_path: Path) -> None:
     job = tmp_path / "table.toml"
-    assert plcgen("new", "two-axis", "-o", str(job)).output == f"wrote {job}\n"
+    assert plcgen("new", "two-axis", "-o", str(job)).output.startswith(f"wrote {job}\n")
     assert read_job(job).method == "two-axis"
     result = plcgen("derive", str(job), "--json")
     assert result.exit_code == 0
