@@ -12,6 +12,7 @@ import click
 
 from plcgen import __version__, completion, terminal
 from plcgen.errors import PlcgenError
+from plcgen.options import ENGINE, PATH, TARGET, target_option
 from plcgen.outcome import BAD_INPUT, FAILED, Commands
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from plcgen.job import Job
     from plcgen.plan import Files, Plan
 
-PATH = click.Path(path_type=Path)
 SCHEMA = "plcgen.schema.json"
 """What the first line of an example job names."""
 
@@ -132,13 +132,12 @@ def derive(job: Path, as_json: bool) -> None:
 
 # --------------------------------------------------------------------------------------------------- verification
 
-TARGET = click.option("--target", metavar="T", help="One target of the job only.", shell_complete=completion.targets)
-
 
 @main.command()
 @click.argument("job", type=PATH)
 @click.option("-o", "--output", type=PATH, metavar="DIR", help="Folder to write to; default the name of the job.")
 @TARGET
+@ENGINE
 @click.option("--no-verify", is_flag=True, help="Write without running the sources; their headers say so.")
 def generate(job: Path, output: Path | None, target: str | None, no_verify: bool) -> None:
     """Verify the sources of a job and write them to DIR/<target>. Nothing is written unless all of them pass.
@@ -180,6 +179,7 @@ def _require(verdict: Verdict) -> None:
 @TARGET
 @click.option("--json", "as_json", is_flag=True, help="JSON on stdout.")
 @click.option("--report", type=PATH, metavar="FILE", help="Write a report as `plcgen report` does.")
+@ENGINE
 def verify(job: Path, source: Path | None, target: str | None, as_json: bool, report: Path | None) -> None:
     """Execute the sources of a job scan by scan against the reference.
 
@@ -213,6 +213,7 @@ def verify(job: Path, source: Path | None, target: str | None, as_json: bool, re
 @click.option("-o", "--output", type=PATH, metavar="FILE", help="HTML to write; default the name of the job.")
 @click.option("--png", type=PATH, metavar="DIR", help="Write the pictures alone, too.")
 @TARGET
+@ENGINE
 def report(job: Path, output: Path | None, png: Path | None, target: str | None) -> None:
     """Verify a job and write one page that shows it all: verdict, motion, checks, constants, sources.
 
@@ -285,6 +286,7 @@ def _verified(plan: Plan, sources: Mapping[str, Mapping[str, bytes]]) -> Verdict
 @click.argument("job", type=PATH)
 @click.option("--moves", default=10_000, show_default=True, type=click.IntRange(1), metavar="N", help="How many.")
 @click.option("--seed", default=1, show_default=True, type=int, metavar="S", help="Of the random numbers.")
+@ENGINE
 def sweep(job: Path, moves: int, seed: int) -> None:
     """Run random moves of a two-axis job with its pulse outputs, on all cores, and count lost pulses.
 
@@ -309,6 +311,7 @@ def sweep(job: Path, moves: int, seed: int) -> None:
 @main.command()
 @click.argument("folder", type=PATH, metavar="[DIR]", default="golden")
 @click.option("--update", is_flag=True, help="Rewrite sources and traces of every case that verifies.")
+@ENGINE
 def check(folder: Path, update: bool) -> None:
     """Compare golden cases, DIR/<case>/job.toml, with what comes out today. Default DIR: golden.
 
@@ -337,12 +340,7 @@ def check(folder: Path, update: bool) -> None:
 
 @main.command()
 @click.argument("files", type=PATH, metavar="FILE...", nargs=-1, required=True)
-@click.option(
-    "--target",
-    metavar="T",
-    help="Import rules of this target; default what the text looks like.",
-    shell_complete=completion.targets,
-)
+@target_option("Import rules of this target; default what the text looks like.")
 def lint(files: tuple[Path, ...], target: str | None) -> None:
     """Check SCL, S7-300 STL and S7-200 SMART sources: syntax, types, what STEP 7, TIA and Micro/WIN refuse at import.
 
@@ -375,6 +373,7 @@ def lint(files: tuple[Path, ...], target: str | None) -> None:
 @click.option("--set", "inputs", multiple=True, metavar="NAME=VALUE", help="Set a variable before the first scan.")
 @click.option("--watch", multiple=True, metavar="NAME,...", help="Variables to record; default all outputs.")
 @click.option("-o", "--output", type=PATH, metavar="CSV", help="File for the rows; default stdout.")
+@ENGINE
 def run(
     file: Path,
     block: str,

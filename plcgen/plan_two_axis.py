@@ -87,15 +87,15 @@ class TwoAxisPlan(Plan):
         return nominal_trace(self.subject(files))
 
     def subject(self, files: Files) -> Subject:
-        return Subject(load(self.job, files), two_axis_model(self))
+        return Subject(load(self.job, files), two_axis_model(self), load(self.job, files, timed=True))
 
 
-def load(job: Job, files: Mapping[str, bytes]) -> Program:
-    """The joined file when it is there, else every block by itself."""
+def load(job: Job, files: Mapping[str, bytes], timed: bool = False) -> Program:
+    """The joined file when it is there, else every block by itself. `timed`: with what counts its run time."""
     joined = f"{job.name}.awl"
     names = [joined] if joined in files else sorted(name for name in files if name.endswith(".awl"))
     blocks = [block for name in names for block in parse(decode_source(name, files[name]))]
-    return lower(blocks, timed=True)
+    return lower(blocks, timed=timed)
 
 
 def import_check(files: Files) -> Check:

@@ -38,7 +38,7 @@ def test_no_run_takes_longer_than_the_longest_way(case: str) -> None:
     assert isinstance(plan, TwoAxisPlan)
     files = plan.sources("s7-200-smart")
     subject = plan.subject(files)
-    table = Table(subject)
+    table = Table(subject, timed=True)
     for move in subject.model.moves:
         table.run(move, "")
     bounds = {time.block: time.seconds for time in plan.estimate("s7-200-smart", files).run_times}

@@ -59,7 +59,7 @@ def nominal_trace(subject: Subject) -> Trajectory:
 
 def _situations(subject: Subject, progress: Callable[[str], None]) -> Iterator[Iterable[Check]]:
     model = subject.model
-    table = Table(subject)
+    table = Table(subject, timed=True)
     for number, move in enumerate(model.moves, start=1):
         name = f"move {number} ({move.x}, {move.y})"
         progress(name)

@@ -23,10 +23,11 @@ SETTLED = 3
 
 @dataclass(frozen=True)
 class Subject:
-    """What is verified: a program and the model to hold it against."""
+    """What is verified: a program and the model to hold it against; `timed` is the program that counts its run time."""
 
     program: Program
     model: TwoAxisModel
+    timed: Program
 
 
 @dataclass(frozen=True)
@@ -51,12 +52,14 @@ class Table:
         temp_fill: int = 0,
         retained: int = 0,
         scan_us: int = SCAN_US,
+        timed: bool = False,
     ) -> None:
         """`retained` is what every byte of order and status holds when the power comes."""
+        program = subject.timed if timed else subject.program
         self.model = subject.model
         self._variables: dict[str, Variable] = {}
         directions = dict(zip(self.model.outputs, self.model.directions, strict=True))
-        self.cpu = Smart(subject.program, scan_us, lateness, blocked, temp_fill, directions)
+        self.cpu = Smart(program, scan_us, lateness, blocked, temp_fill, directions)
         for name in RETAINED if retained else ():
             self.variable(name).set(retained)
         self.cpu.scan()

@@ -11,7 +11,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import accumulate
 from types import CodeType, MappingProxyType
 from typing import Any, NamedTuple, NoReturn
@@ -103,6 +103,15 @@ class Engine:
     def function(self, name: str) -> Callable[..., Any]:
         """The Python function of a block: (instance bytes, base byte) for an FB, (frame) for an OB, then arguments."""
         return self._functions[name]
+
+    def bound(self, name: str, instance: Bytes | None) -> Callable[..., Any]:
+        """The function of a block on its instance: (frame) for an OB, then arguments."""
+        function = self._functions[name]
+        return function if instance is None else partial(function, instance, 0)
+
+    def adopt(self, data: bytes) -> Bytes:
+        """Memory for another instance."""
+        return bytearray(data)
 
     def source_of(self, name: str) -> str:
         """The Python text of a block."""

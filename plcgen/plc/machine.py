@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 from plcgen.errors import Fault, Location, PlcgenError
+from plcgen.plc import engines
 from plcgen.plc.addresses import AREA_BYTES, parse_address
 from plcgen.plc.core import GLOBAL_AREAS, Area, Cell, DataBlock, Function, Program
-from plcgen.plc.engine import Bytes, Engine, Site
+from plcgen.plc.engine import Bytes, Site
 from plcgen.plc.suggest import did_you_mean
 from plcgen.plc.types import (
     BOOL,
@@ -58,7 +59,6 @@ class _Link(NamedTuple):
 
     function: Function
     run: Callable[..., Any]
-    instance: tuple[Bytes, int] | tuple[()]
 
 
 class Machine:
@@ -80,7 +80,9 @@ class Machine:
         self._budget = budget
         self._fill = temp_fill
         self._links: dict[tuple[str, str | None], _Link] = {}
-        self.engine = Engine(program, self.memory, self._note, temp_fill, function_error, self.services())
+        self.engine, self.memory = engines.start(
+            program, self.memory, self._note, temp_fill, function_error, self.services()
+        )
 
     def global_memory(self) -> dict[Area | str, Bytes]:
         """Fresh memory outside data blocks."""
@@ -109,7 +111,7 @@ class Machine:
         link = self._links.get((name, instance)) or self._link(name, instance)
         self.engine.budget[0] = self._budget
         try:
-            return link.run(*link.instance, *self._frame(link.function, frame), *arguments)
+            return link.run(*self._frame(link.function, frame), *arguments)
         except RecursionError:
             message = f"{name}: blocks call each other too deep (scan {self.scan}); is there a call without end?"
             raise Fault(message, link.function.source.location(link.function.span)) from None
@@ -119,8 +121,8 @@ class Machine:
     def _link(self, name: str, instance: str | None) -> _Link:
         block = self._known(self.program.functions, name, "block")
         function = self.program.functions[block]
-        data = () if function.instance is None else (self._instance(block, instance), 0)
-        link = self._links[name, instance] = _Link(function, self.engine.function(block), data)
+        data = None if function.instance is None else self._instance(block, instance)
+        link = self._links[name, instance] = _Link(function, self.engine.bound(block, data))
         return link
 
     def _frame(self, function: Function, head: bytes | None) -> tuple[bytearray, ...]:
@@ -137,7 +139,7 @@ class Machine:
         key = self._resolve(instance)
         if key not in self._blocks:
             self._blocks[key] = DataBlock(key, structure, structure.initial, name)
-            self.memory[key] = bytearray(structure.initial)
+            self.memory[key] = self.engine.adopt(structure.initial)
         if self._blocks[key].type != structure:
             raise Fault(f"{key} is no instance of {name} but of {self._blocks[key].type}")
         return self.memory[key]

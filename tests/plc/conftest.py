@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from plcgen.plc import engines
 from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.lowering import lower
@@ -26,6 +27,15 @@ def _block(name: str, body: str) -> str:
     declarations, _, networks = body.rpartition("BEGIN\n")
     numbered = "".join(f"Network {n}\n{text.strip()}\n" for n, text in enumerate(networks.split("----"), 1))
     return f"{word} {name}:{name}\n{declarations}BEGIN\n{numbered}END_{word}\n"
+
+
+@pytest.fixture(autouse=True, params=engines.ENGINES)
+def engine(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Every program of these tests runs on both engines. Tests that compare them themselves choose for themselves."""
+    if request.param == engines.FAST:
+        pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
+    monkeypatch.setenv(engines.VARIABLE, request.param)
+    return str(request.param)
 
 
 @pytest.fixture

@@ -1,0 +1,61 @@
+"""Which engine runs a program: the compiled one where Numba is installed, else the plain one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from importlib.util import find_spec
+from typing import Any, Protocol
+
+from plcgen.errors import PlcgenError
+from plcgen.plc.core import Area, Program
+from plcgen.plc.engine import Bytes, Engine, Site
+
+VARIABLE, PLAIN, FAST = "PLCGEN_ENGINE", "plain", "fast"
+ENGINES = (PLAIN, FAST)
+Memory = dict[Area | str, Bytes]
+Run = Callable[..., Any]
+
+
+class Runner(Protocol):
+    """What a machine needs of an engine."""
+
+    budget: list[int]
+
+    def bound(self, name: str, instance: Bytes | None) -> Run: ...
+
+    def adopt(self, data: bytes) -> Bytes:
+        """Memory for another instance."""
+
+
+def chosen() -> str:
+    """Raises PlcgenError for a name that is none, and for the fast engine without Numba."""
+    name = os.environ.get(VARIABLE, "")
+    if name not in ("", *ENGINES):
+        raise PlcgenError(f'{VARIABLE} is "{name}"; there are the engines "plain" and "fast"')
+    has_numba = find_spec("numba") is not None
+    if name == FAST and not has_numba:
+        raise PlcgenError('the fast engine needs numba; install plcgen with the extra "fast"')
+    return name or (FAST if has_numba else PLAIN)
+
+
+def start(
+    program: Program,
+    memory: Memory,
+    note: Callable[[str, Site], None],
+    temp_fill: int,
+    function_error: float,
+    services: Mapping[str, Callable[..., Any]],
+) -> tuple[Runner, Memory]:
+    """An engine, and the memory that it works on: the compiled one moves it into one piece."""
+    if chosen() == FAST:
+        from plcgen.plc.fast.encode import UnsuitableError
+        from plcgen.plc.fast.memory import FastRunner
+
+        try:
+            runner = FastRunner(program, memory, note, temp_fill, function_error, services)
+        except UnsuitableError:
+            pass
+        else:
+            return runner, runner.views
+    return Engine(program, memory, note, temp_fill, function_error, services), memory

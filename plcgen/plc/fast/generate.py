@@ -1,0 +1,175 @@
+"""Writes `vm.py`, the virtual machine, from the bodies of operators: python -m plcgen.plc.fast.generate"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import count
+from pathlib import Path
+
+from plcgen.plc import operators
+from plcgen.plc.fast.bodies import Body, body_of, lines
+from plcgen.plc.operators import Operator
+from plcgen.plc.stl import s7_operators, smart_boxes, smart_operators
+from plcgen.plc.types import BYTE, DINT, INT, REAL, WORD
+
+FILE = Path(__file__).with_name("vm.py")
+COMMON = frozenset({"BOOL", "BYTE", "WORD", "DWORD", "CHAR", "INT", "DINT", "REAL", "TIME"})
+"""Types whose rows have bodies; the others are rare."""
+FIRST_BODY = 32
+HEAD = '''"""The virtual machine. Written by `generate.py`: change that, not this.
+
+`code` holds an instruction a row: number, target, four operands, six numbers and the site. All but memory, M, lies in
+one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), the stack of calls, events E, and behind
+them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator that Python
+has to evaluate, room for events; or because the budget is spent.
+"""
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from plcgen.plc.fast.helpers import *
+
+DONE, REQUEST, EXHAUSTED, FULL = range(4)
+FACTOR = 3
+KIND0, KIND1, KIND2, KIND3 = range(4)
+ROUNDING0, ROUNDING1, ROUNDING2, ROUNDING3 = range(4)
+CELL, STACK, EVENTS, SLOTS = 8, 16, 8208, 8208 + 131072
+MOST_EVENTS = 30000
+"""Noted before Python is told: the others fit between two jumps backwards."""
+'''
+PIECES = (
+    "S = room[:CELL]",
+    "W = room[CELL : CELL + 1].view(np.uint32)",
+    "V = room[CELL : CELL + 1].view(np.float32)",
+    "X = room[CELL + 1 : CELL + 2]",
+    "stack = room[STACK:EVENTS]",
+    "E = room[EVENTS:SLOTS]",
+    "I = room[SLOTS:]",
+    "F = I.view(np.float64)",
+)
+
+
+def written() -> str:
+    """The text of the module."""
+    bodies = all_bodies()
+    text = [HEAD, "BODIES = {"]
+    text += [f"    {body.key!r}: {number}," for body, number in zip(bodies, count(FIRST_BODY), strict=False)]
+    text += ["}", "", "", '@njit(cache=True, error_model="numpy", nogil=True)']
+    text += ["def run(code: Any, room: Any, M: Any) -> int:"]
+    text += ["    " + row for row in (*PIECES, *_loop(bodies))]
+    return "\n".join(text) + "\n"
+
+
+def all_bodies() -> list[Body]:
+    found = [body_of(row) for row in rows()]
+    return sorted({body for entry in found if entry for body in entry[:1]}, key=lambda body: body.key)
+
+
+def rows() -> Iterator[Operator]:
+    """Rows of the common table, and what STL of both CPUs adds to it."""
+    for name in operators._table():
+        for row in operators.alternatives(name):
+            if {str(kind) for kind in (*row.operands, row.result)} <= COMMON:
+                yield row
+    for module in (s7_operators, smart_operators, smart_boxes):
+        yield from _of_module(vars(module).values())
+    yield from _parametrised()
+
+
+def _of_module(values: Iterable[object]) -> Iterator[Operator]:
+    for value in values:
+        if isinstance(value, Operator):
+            yield value
+        elif isinstance(value, dict):
+            yield from (entry for entry in value.values() if isinstance(entry, Operator))
+
+
+def _parametrised() -> Iterator[Operator]:
+    """One of each family of rows that are made when they are needed."""
+    for symbol in ("+", "-", "*", "/", "SQR", "EXP", "SQRT"):
+        yield s7_operators.real_overflow(symbol)
+    for symbol in "+-*":
+        for kind in (INT, DINT):
+            yield s7_operators.whole_overflow(symbol, kind)
+    for kind in (INT, DINT):
+        yield s7_operators.negation_overflow(kind)
+    yield from (s7_operators.pointed(800, bits, offset, "x") for bits in (1, 32) for offset in (0, 640))
+    yield from (smart_operators.status(kind, divides) for kind in (BYTE, INT, DINT, REAL) for divides in (False, True))
+    yield from (smart_operators.outcome(kind, divides) for kind in (BYTE, INT, DINT, REAL) for divides in (False, True))
+    yield from (smart_operators.illegal(kind) for kind in (INT, DINT, BYTE, WORD))
+    yield from (smart_operators.arithmetic(symbol, kind) for symbol in "+-*/" for kind in (BYTE, INT, DINT, REAL))
+    yield smart_operators.widened(DINT, INT)
+    yield operators.INDEX
+
+
+# ----------------------------------------------------------------------------------------------------- the loop
+
+FIXED: tuple[tuple[str, ...], ...] = (
+    # 0 .. : control
+    ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED", "if E[0] > MOST_EVENTS:", "    S[1] += 1",
+     "    S[0] = pc - 1", "    return FULL", "pc = t - 1"),  # jump backwards
+    ("pc = t - 1",),
+    ("if I[a] != 0:", "    pc = t - 1"),
+    ("if I[a] == 0:", "    pc = t - 1"),
+    ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED", "stack[S[2]] = pc", "stack[S[2] + 1] = I[1]",
+     "S[2] += 2", "I[1] = I[a] + b", "pc = t - 1"),  # call
+    ("if S[2] == 0:", "    return DONE", "S[2] -= 2", "pc = stack[S[2]]", "I[1] = stack[S[2] + 1]"),  # return
+    ("S[0] = pc", "return REQUEST"),
+    ("I[t] = I[a]",),
+    ("for place in range(b):", "    M[t + place] = c"),  # fill
+    ("p, bit = t + I[a] + (I[b] >> 3), c + I[d] + (I[code[pc, 7]] >> 3)", "for place in range(code[pc, 6]):",
+     "    M[p + place] = M[bit + place]"),  # copy
+    # 10 .. : load t from a + bytes I[b] + bits I[c]
+    ("bit = a + (I[b] << 3) + I[c]", "I[t] = (M[bit >> 3] >> (bit & 7)) & 1"),
+    ("I[t] = M[a + I[b] + (I[c] >> 3)]",),
+    ("x = M[a + I[b] + (I[c] >> 3)]", "I[t] = np.int64(x) - 256 if x > 127 else np.int64(x)"),
+    ("p = a + I[b] + (I[c] >> 3)", "I[t] = np.int64(M[p]) << 8 | np.int64(M[p + 1])"),
+    ("p = a + I[b] + (I[c] >> 3)", "x = np.int64(M[p]) << 8 | np.int64(M[p + 1])",
+     "I[t] = x - 65536 if x > 32767 else x"),
+    ("p = a + I[b] + (I[c] >> 3)", "I[t] = WORD32"),
+    ("p = a + I[b] + (I[c] >> 3)", "x = WORD32", "I[t] = x - 4294967296 if x > 2147483647 else x"),
+    ("p = a + I[b] + (I[c] >> 3)", "W[0] = WORD32", "F[t] = V[0]"),
+    ("p = a + I[b] + (I[c] >> 3)", "for place in range(8):", "    X[0] = X[0] << 8 | M[p + place]", "I[t] = X[0]"),
+    # 19 .. : store I[d] to t + bytes I[b] + bits I[c]
+    ("bit = t + (I[b] << 3) + I[c]", "if I[d] != 0:", "    M[bit >> 3] |= 1 << (bit & 7)", "else:",
+     "    M[bit >> 3] &= 255 - (1 << (bit & 7))"),
+    ("M[t + I[b] + (I[c] >> 3)] = I[d] & 255",),
+    ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "M[p] = x >> 8 & 255", "M[p + 1] = x & 255"),
+    ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "STORE32"),
+    ("p = t + I[b] + (I[c] >> 3)", "V[0] = F[d]", "x = np.int64(W[0])", "STORE32"),
+    ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "for place in range(8):", "    M[p + 7 - place] = x & 255",
+     "    x = x >> 8"),
+    # 25: INDEX, (index, low, high, stride)
+    ("if I[a] < I[b] or I[a] > I[c]:", "    S[0] = pc", "    return REQUEST", "I[t] = (I[a] - I[b]) * I[d]"),
+)  # fmt: skip
+WORD32 = "np.int64(M[p]) << 24 | np.int64(M[p + 1]) << 16 | np.int64(M[p + 2]) << 8 | np.int64(M[p + 3])"
+STORE32 = ("M[p] = x >> 24 & 255", "M[p + 1] = x >> 16 & 255", "M[p + 2] = x >> 8 & 255", "M[p + 3] = x & 255")
+
+
+def _loop(bodies: list[Body]) -> Iterator[str]:
+    yield "pc = S[0]"
+    yield "while True:"
+    yield "    op = code[pc, 0]"
+    yield "    t, a, b, c, d = code[pc, 1], code[pc, 2], code[pc, 3], code[pc, 4], code[pc, 5]"
+    yield "    site = code[pc, 12]"
+    for number, block in enumerate(_blocks(bodies)):
+        yield f"    {'el' if number else ''}if op == {block[0]}:"
+        yield from (f"        {row}" for row in block[1])
+    yield "    pc += 1"
+
+
+def _blocks(bodies: list[Body]) -> Iterator[tuple[int, list[str]]]:
+    for number, fixed in enumerate(FIXED):
+        yield number, [line for row in fixed for line in _expanded(row)]
+    for body, number in zip(bodies, count(FIRST_BODY), strict=False):
+        yield number, list(lines(body))
+
+
+def _expanded(row: str) -> Iterable[str]:
+    return STORE32 if row == "STORE32" else (row.replace("WORD32", WORD32),)
+
+
+if __name__ == "__main__":
+    FILE.write_text(written(), "ascii")

@@ -1,0 +1,74 @@
+"""All memory of a machine in one piece, as the compiled engine wants it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from plcgen.plc.core import Area, Program
+from plcgen.plc.engine import Bytes, Site
+from plcgen.plc.fast.engine import FastEngine
+
+ROOM = 1 << 17
+"""Bytes behind the areas: frames, constants, instances that come later."""
+SPACING = 8
+
+
+class FastRunner:
+    """The compiled engine and the views of its memory. Raises UnsuitableError, and then nothing was changed."""
+
+    def __init__(
+        self,
+        program: Program,
+        memory: Mapping[Area | str, Bytes],
+        note: Callable[[str, Site], None],
+        temp_fill: int,
+        function_error: float,
+        services: Mapping[str, Callable[..., Any]],
+    ) -> None:
+        roots = {id(_root(data)): _root(data) for data in memory.values()}
+        starts, end = {}, SPACING
+        for key, root in roots.items():
+            starts[key] = end
+            end += (len(root) + SPACING - 1) // SPACING * SPACING
+        self._flat = np.zeros(end + ROOM, np.uint8)
+        whole = self._flat.data
+        for key, root in roots.items():
+            whole[starts[key] : starts[key] + len(root)] = bytes(root)
+        areas = {area: starts[id(_root(data))] + _offset(data) for area, data in memory.items()}
+        self.views: dict[Area | str, Bytes] = {a: whole[areas[a] : areas[a] + len(data)] for a, data in memory.items()}
+        self.engine = FastEngine(program, self._flat, areas, end, note, temp_fill, function_error, services)
+        self.budget = self.engine.budget
+        self._whole, self._end = whole, self.engine.end
+
+    def bound(self, name: str, instance: Bytes | None) -> Callable[..., Any]:
+        """See `Engine.bound`."""
+        return self.engine.bound(name, 0 if instance is None else self._first_byte(instance))
+
+    def _first_byte(self, view: Bytes) -> int:
+        address: int = np.frombuffer(view, np.uint8).__array_interface__["data"][0]
+        return address - int(self._flat.__array_interface__["data"][0])
+
+    def adopt(self, data: bytes) -> Bytes:
+        """Memory for another instance."""
+        start = self._end
+        self._end += (len(data) + SPACING - 1) // SPACING * SPACING
+        view = self._whole[start : start + len(data)]
+        view[:] = data
+        return view
+
+
+def _root(data: Bytes) -> bytearray:
+    found = data.obj if isinstance(data, memoryview) else data
+    assert isinstance(found, bytearray)
+    return found
+
+
+def _offset(data: Bytes) -> int:
+    """Where a view begins in what it is a view of."""
+    if not isinstance(data, memoryview) or not len(data):
+        return 0
+    first = np.frombuffer(data, np.uint8).__array_interface__["data"][0]
+    return int(first - np.frombuffer(_root(data), np.uint8).__array_interface__["data"][0])

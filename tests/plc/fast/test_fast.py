@@ -1,0 +1,194 @@
+"""The compiled engine against the plain one: every operator, random programs, golden blocks; bit for bit."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from plcgen.errors import Fault, PlcgenError
+from plcgen.job import read_job
+from plcgen.loading import load
+from plcgen.plc import engines, operators
+from plcgen.plc.core import Compute, Function, Program, Register, Return
+from plcgen.plc.machine import Machine
+from plcgen.plc.operators import Operator
+from plcgen.plc.source import SourceText, Span
+from plcgen.plc.stl import s7_operators, smart_operators
+from plcgen.plc.stl.s7_lowering import lower
+from plcgen.plc.stl.s7_parser import parse
+from plcgen.plc.types import BOOL, Elementary, Type
+from tests.plc.stl.s7_programs import calls, program
+
+pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
+
+from plcgen.plc.fast import generate
+from plcgen.plc.fast.bodies import body_of
+
+GOLDEN = Path(__file__).parents[3] / "golden"
+SOURCE, HERE = SourceText("fast.scl", "x := 1;"), Span(0, 6)
+FLOATS = (0.0, -0.0, 1.0, -1.5, 0.5, 2.5, -3.5, 1e-38, 1e-45, 3.4e38, -3.4e38, 65536.0, 2147483648.0, -2147483649.0)
+NOT_FINITE = (math.inf, -math.inf, math.nan)
+
+
+@pytest.fixture(autouse=True)
+def engine() -> None:
+    """These tests choose their engine."""
+
+
+def pair(monkeypatch: pytest.MonkeyPatch, *arguments: Any) -> dict[str, Machine]:
+    """A machine on each engine."""
+    machines = {}
+    for name in engines.ENGINES:
+        monkeypatch.setenv(engines.VARIABLE, name)
+        machines[name] = Machine(*arguments)
+    assert type(machines["plain"].engine) is not type(machines["fast"].engine)
+    return machines
+
+
+# ------------------------------------------------------------------------------------------------------ operators
+
+
+def rows() -> Iterator[Operator]:
+    """All rows on numbers: of the common table, and what both kinds of STL add."""
+    for name in operators._table():
+        yield from operators.alternatives(name)
+    yield from generate.rows()
+    yield from s7_operators.BCD.values()
+    yield from (smart_operators.ROUND, smart_operators.TRUNC)
+
+
+def is_number(kind: Type) -> bool:
+    return isinstance(kind, Elementary)
+
+
+def table() -> tuple[Program, list[Operator]]:
+    """A function for each row."""
+    found = [row for row in dict.fromkeys(rows()) if all(map(is_number, (*row.operands, row.result)))]
+    functions = {}
+    for number, row in enumerate(found):
+        assert isinstance(row.result, Elementary)
+        parameters = tuple(Register(n, kind) for n, kind in enumerate(row.operands, 1) if isinstance(kind, Elementary))
+        result = Register(99, row.result)
+        body = (Compute(HERE, result, row, parameters), Return(HERE))
+        functions[f"FC{number}"] = Function(f"FC{number}", SOURCE, body, HERE, None, parameters, (result,))
+    return Program(functions), found
+
+
+def value(random: Random, kind: Type) -> Any:
+    assert isinstance(kind, Elementary)
+    if kind is BOOL:
+        return random.random() < 0.5
+    if not kind.is_integral:
+        shape = random.random()
+        if shape < 0.4:
+            return kind.nearest(random.choice(FLOATS))
+        if shape < 0.5:
+            return random.choice(NOT_FINITE)
+        return kind.nearest(random.uniform(-1, 1) * 10.0 ** random.randint(-40, 38))
+    near = random.choice((0, 1, 2, 5, 31, 32, 33, kind.minimum, kind.maximum, kind.maximum - 1, -1))
+    return min(
+        max(near if random.random() < 0.6 else random.randint(kind.minimum, kind.maximum), kind.minimum), kind.maximum
+    )
+
+
+def outcome(machine: Machine, name: str, operands: list[Any]) -> tuple[Any, ...]:
+    """Bits of the result, events, or how it stopped."""
+    machine.faults.clear()
+    try:
+        result = machine.call(name, arguments=operands)
+    except (Fault, ValueError, NameError) as error:
+        return ("stopped", str(error).splitlines()[0])
+    bits = struct.pack(">d", result) if isinstance(result, float) else result
+    return (type(result).__name__, bits, [fault.kind for fault in machine.faults])
+
+
+def test_every_row_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    linked, found = table()
+    machines = pair(monkeypatch, linked)
+    random = Random(2026)
+    for number, row in enumerate(found):
+        for _ in range(24):
+            operands = [value(random, kind) for kind in row.operands]
+            plain, fast = (outcome(machine, f"FC{number}", operands) for machine in machines.values())
+            assert plain == fast, (row, row.text, operands)
+
+
+def test_most_rows_of_the_usual_types_have_a_body() -> None:
+    usual = [row for row in generate.rows() if all(map(is_number, row.operands))]
+    assert sum(body_of(row) is not None for row in usual) > 0.9 * len(usual)
+
+
+def test_the_machine_is_what_its_generator_writes() -> None:
+    assert generate.FILE.read_text("ascii") == generate.written(), "run python -m plcgen.plc.fast.generate"
+
+
+# ------------------------------------------------------------------------------------------------------- programs
+
+
+@pytest.mark.parametrize("batch", range(25))
+def test_random_programs_leave_the_same_memory(monkeypatch: pytest.MonkeyPatch, batch: int) -> None:
+    random = Random(batch)
+    numbers = range(1, 81)
+    source = "".join(program(random, number) for number in numbers) + calls(numbers)
+    machines = pair(monkeypatch, lower(parse(SourceText("random.awl", source))))
+    for machine in machines.values():
+        machine.call("OB1")
+    plain, fast = machines.values()
+    assert {name: bytes(data) for name, data in plain.memory.items()} == {n: bytes(d) for n, d in fast.memory.items()}
+    assert plain.faults == fast.faults
+
+
+@pytest.mark.parametrize(("case", "target"), [("short-shaft", "s7-300-scl"), ("ramps", "s7-300-stl")])
+def test_golden_blocks_keep_the_same_memory(monkeypatch: pytest.MonkeyPatch, case: str, target: str) -> None:
+    files = {path.name: path.read_bytes() for path in (GOLDEN / case / target).iterdir()}
+    keys = read_job(GOLDEN / case / "job.toml").function_block
+    machines = pair(monkeypatch, load(target, files), 0x7F)
+    random, block, data = Random(1), f"FB{keys.fb}", f"DB{keys.db}"
+    inputs = [
+        name for name in ("enable", "execute", "stop", "restart", "directionUp") if _has(machines["plain"], data, name)
+    ]
+    for scan in range(2000):
+        for name in inputs:
+            if random.random() < 0.05:
+                flag = random.random() < 0.6
+                for machine in machines.values():
+                    machine.variable(f'"{data}".{name}').set(flag)
+        images = []
+        for machine in machines.values():
+            machine.scan = scan
+            machine.call(block, data)
+            images.append(bytes(machine.memory[data]))
+        assert images[0] == images[1], scan
+    assert machines["plain"].faults == machines["fast"].faults
+
+
+def _has(machine: Machine, data: str, name: str) -> bool:
+    try:
+        machine.variable(f'"{data}".{name}')
+    except PlcgenError:
+        return False
+    return True
+
+
+# --------------------------------------------------------------------------------------------------------- choice
+
+
+def test_an_engine_that_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(engines.VARIABLE, "quick")
+    with pytest.raises(PlcgenError, match='PLCGEN_ENGINE is "quick"; there are the engines "plain" and "fast"'):
+        engines.chosen()
+
+
+def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(engines, "find_spec", lambda _name: None)
+    monkeypatch.delenv(engines.VARIABLE, raising=False)
+    assert engines.chosen() == "plain"
+    monkeypatch.setenv(engines.VARIABLE, "fast")
+    with pytest.raises(PlcgenError, match='the fast engine needs numba; install plcgen with the extra "fast"'):
+        engines.chosen()
