@@ -59,7 +59,7 @@ def new(method: str, output: Path | None) -> None:
     """
     from plcgen.files import write_files
     from plcgen.job import job_schema
-    from plcgen.render.environment import template_folder
+    from plcgen.render.files import template_folder
 
     _require_method(method)
     path = output or Path(f"{method}.toml")

@@ -7,6 +7,12 @@ from dataclasses import dataclass
 from plcgen.errors import PlcgenError
 from plcgen.names import nearest, one_of
 
+CODE_PAGE = ""
+"""The encoding of a tool that reads files in the code page of Windows."""
+CODE_PAGES = {"en": "ascii", "zh": "gbk"}
+"""Code page by the language of comments: ASCII is part of each, 936 is that of a Windows in China."""
+LANGUAGES = tuple(CODE_PAGES)
+
 
 @dataclass(frozen=True)
 class Target:
@@ -17,10 +23,14 @@ class Target:
     folder: str  # below templates/
     dialect: str  # name of the language's dialect
     suffix: str  # of a source file
-    encoding: str  # Python's name of the codec
+    encoding: str  # Python's name of the codec, or CODE_PAGE
     newline: str
     max_identifier: int  # characters in the name of a block or variable
     methods: frozenset[str]
+
+    def codec(self, language: str) -> str:
+        """Python's name of the codec of files whose comments are in a language."""
+        return CODE_PAGES[language] if self.encoding == CODE_PAGE else self.encoding
 
 
 TARGETS = {
@@ -32,7 +42,7 @@ TARGETS = {
             folder="s7-300-scl",
             dialect="classic",
             suffix=".scl",
-            encoding="ascii",
+            encoding=CODE_PAGE,
             newline="\r\n",
             max_identifier=24,
             methods=frozenset({"hoist", "cosine"}),
@@ -43,7 +53,7 @@ TARGETS = {
             folder="s7-300-stl",
             dialect="stl",
             suffix=".awl",
-            encoding="ascii",
+            encoding=CODE_PAGE,
             newline="\r\n",
             max_identifier=24,
             methods=frozenset({"hoist", "cosine"}),
@@ -65,7 +75,7 @@ TARGETS = {
             folder="s7-200-smart",
             dialect="smart",
             suffix=".awl",
-            encoding="ascii",
+            encoding=CODE_PAGE,
             newline="\r\n",
             max_identifier=23,
             methods=frozenset({"cosine", "two-axis"}),
