@@ -120,6 +120,7 @@ def _time(cpu: str, routines: Routines, name: str, prices: Prices, unit: float) 
 
 # ------------------------------------------------------------------------------------------------- as they are told
 
+NO_BOUND = "no bound"
 MAIN = "OB1"
 """What runs once a scan and not once a sample."""
 
@@ -140,7 +141,7 @@ def estimate_rows(estimate: Estimate, sample_period: float) -> tuple[EstimateRow
 
 def _row(time: RunTime, sample_period: float) -> EstimateRow:
     if time.seconds is None:
-        return EstimateRow(time.cpu, time.block, "no bound", "")
+        return EstimateRow(time.cpu, time.block, NO_BOUND, "")
     share = "" if time.block == MAIN else f"{100.0 * time.seconds / sample_period:.2g}"
     return EstimateRow(time.cpu, time.block, f"{1000.0 * time.seconds:.2g}", share)
 

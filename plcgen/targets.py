@@ -9,7 +9,8 @@ from plcgen.names import nearest, one_of
 
 CODE_PAGE = ""
 """The encoding of a tool that reads files in the code page of Windows."""
-CODE_PAGES = {"en": "ascii", "zh": "gbk"}
+ENGLISH, CHINESE = "en", "zh"
+CODE_PAGES = {ENGLISH: "ascii", CHINESE: "gbk"}
 """Code page by the language of comments: ASCII is part of each, 936 is that of a Windows in China."""
 LANGUAGES = tuple(CODE_PAGES)
 

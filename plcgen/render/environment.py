@@ -8,8 +8,9 @@ from jinja2 import BaseLoader, Environment, FileSystemLoader, StrictUndefined
 
 from plcgen.render.comments import padded
 from plcgen.render.files import template_folder
-from plcgen.render.language import ENGLISH, TranslatedLoader
+from plcgen.render.language import TranslatedLoader
 from plcgen.render.literals import real_literal, stl_real_literal
+from plcgen.targets import ENGLISH
 
 
 def column(value: object, width: int) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from plcgen.render.comments import Words
+from plcgen.targets import ENGLISH
 
 
 def template_folder() -> Path:
@@ -14,6 +15,17 @@ def template_folder() -> Path:
     package = Path(__file__).resolve().parent.parent
     installed = package / "templates"
     return installed if installed.is_dir() else package.parent / "templates"
+
+
+def localised(name: str, language: str) -> str:
+    """The name of the text `name` in a language: `import.zh.md` of `import.md`."""
+    stem, _, suffix = name.rpartition(".")
+    return name if language == ENGLISH else f"{stem}.{language}.{suffix}"
+
+
+def example_job(method: str, language: str) -> Path:
+    """The example job of a method with comments in a language."""
+    return template_folder() / "jobs" / localised(f"{method}.toml", language)
 
 
 @dataclass(frozen=True)

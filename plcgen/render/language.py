@@ -10,9 +10,9 @@ import polib
 from jinja2 import Environment, FileSystemLoader
 
 from plcgen.render.comments import Words, reworded
-from plcgen.render.files import template_folder
+from plcgen.render.files import localised, template_folder
+from plcgen.targets import ENGLISH
 
-ENGLISH = "en"
 SOURCES = (".scl", ".awl")
 NOTE = ".md"
 # In a formula these are functions and variables.
@@ -52,6 +52,6 @@ class TranslatedLoader(FileSystemLoader):
 
     def get_source(self, environment: Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
         if template.endswith(NOTE):
-            return super().get_source(environment, f"{template.removesuffix(NOTE)}.{self.language}{NOTE}")
+            return super().get_source(environment, localised(template, self.language))
         source, file, is_fresh = super().get_source(environment, template)
         return (reworded(source, words_of(self.language)) if template.endswith(SOURCES) else source), file, is_fresh
