@@ -153,6 +153,7 @@ SHIPPED = (
     "docs",
     ".ci",
     "README.md",
+    "README.zh.md",
     "CHANGELOG.md",
     "LICENSE",
     "pyproject.toml",
