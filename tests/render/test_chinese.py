@@ -191,7 +191,7 @@ def identifiers(name: str, files: dict[str, bytes]) -> set[str]:
 
 
 def comments(file: str, text: str) -> Iterator[str]:
-    """What people read in a file: comments and titles, columns of a symbol table, a note without its code."""
+    """What people read: comments and titles, comments of symbols, a note without its code and English menu names."""
     if is_source(file):
         yield from (match.group() for match in COMMENT.finditer(text))
     elif file.endswith("symbols.txt"):
@@ -201,7 +201,7 @@ def comments(file: str, text: str) -> Iterator[str]:
     elif file.endswith(".sdf"):
         yield from (line.split(",")[-1] for line in text.splitlines())
     else:
-        yield re.sub(r"`[^`]*`", "", text)
+        yield re.sub(r"`[^`]*`|（[A-Z][A-Za-z >.]+）", "", text)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -239,6 +239,16 @@ def test_unverified_sources_say_so_in_chinese() -> None:
         for file, data in rendered(name, CHINESE, verified=False).items():
             if "_example" not in file and (is_source(file) or file.endswith(".md")):
                 assert "未经验证" in text_of(file, data), file
+
+
+def test_german_mnemonics_pass_over_chinese_comments() -> None:
+    english, chinese = (
+        pipeline.sources(pipeline.prepare(case("short-shaft", spoken, mnemonics="german")), "s7-300-stl")
+        for spoken in ("en", CHINESE)
+    )
+    source = "ShortShaft.awl"
+    assert code(english[source].decode("ascii")) == code(chinese[source].decode("gbk"))
+    assert "助记符为德语" in chinese["IMPORT.md"].decode()
 
 
 # --------------------------------------------------------------------------------------------------- notes and jobs

@@ -51,6 +51,7 @@ def test_same_words_leave_a_template_as_it_is(path: Path) -> None:
     text = path.read_text("utf-8")
     assert reworded(text, str) == text
     assert bool(messages(text)) == ("//" in text)
+    assert "(*" not in text, "a comment of this kind would stay English"
 
 
 def test_a_chinese_character_takes_two_columns() -> None:
