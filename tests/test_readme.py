@@ -38,6 +38,12 @@ def test_commands_to_copy_are_the_same() -> None:
     assert FENCED.findall(ENGLISH)
 
 
+def test_pictures_are_the_same() -> None:
+    pictures = [re.findall(r"!\[[^\]]+\]\((.*?)\)", text) for text in (ENGLISH, CHINESE)]
+    assert pictures[0] == pictures[1]
+    assert all((ROOT / picture).is_file() for picture in pictures[0])
+
+
 def test_tables_name_the_same_commands_keys_and_values() -> None:
     assert [len(table) for table in tables(ENGLISH)] == [len(table) for table in tables(CHINESE)]
     for english, chinese in zip(rows(ENGLISH), rows(CHINESE), strict=True):
