@@ -14,6 +14,7 @@ from plcgen import __version__, completion, terminal
 from plcgen.errors import PlcgenError
 from plcgen.options import ENGINE, PATH, TARGET, target_option
 from plcgen.outcome import BAD_INPUT, FAILED, Commands
+from plcgen.targets import ENGLISH, LANGUAGES
 
 if TYPE_CHECKING:
     from plcgen.check.verdict import Verdict
@@ -48,7 +49,8 @@ def main() -> None:
 @main.command()
 @click.argument("method", shell_complete=completion.methods)
 @click.option("-o", "--output", type=PATH, metavar="JOB", help="File to write; default METHOD.toml.")
-def new(method: str, output: Path | None) -> None:
+@click.option("--language", type=click.Choice(LANGUAGES), default=ENGLISH, help="Of the comments; default en.")
+def new(method: str, output: Path | None, language: str) -> None:
     """Write a commented example job, and beside it the schema that editors check it against.
 
     A job that exists is left alone.
@@ -59,13 +61,13 @@ def new(method: str, output: Path | None) -> None:
     """
     from plcgen.files import write_files
     from plcgen.job import job_schema
-    from plcgen.render.environment import template_folder
+    from plcgen.render.files import example_job
 
     _require_method(method)
     path = output or Path(f"{method}.toml")
     if path.exists():
         raise PlcgenError(f"{path}: exists already; name another file with -o")
-    job = (template_folder() / "jobs" / f"{method}.toml").read_bytes()
+    job = example_job(method, language).read_bytes()
     write_files(path.parent, {path.name: job, SCHEMA: _json(job_schema()).encode()})
     terminal.say(f"wrote {path}\nwrote {path.with_name(SCHEMA)}")
 

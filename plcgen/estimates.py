@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from plcgen.errors import SourceError
 from plcgen.loading import read_scl, read_stl
@@ -21,6 +21,7 @@ from plcgen.plc.stl.parser import parse as parse_smart
 from plcgen.plc.stl.smart_costs import COSTS
 from plcgen.plc.stl.syntax import Block as SmartBlock
 from plcgen.plc.types import BYTE_BITS
+from plcgen.render.comments import Words
 from plcgen.targets import SMART, TARGETS
 
 Files = Mapping[str, bytes]
@@ -119,6 +120,7 @@ def _time(cpu: str, routines: Routines, name: str, prices: Prices, unit: float) 
 
 # ------------------------------------------------------------------------------------------------- as they are told
 
+NO_BOUND = "no bound"
 MAIN = "OB1"
 """What runs once a scan and not once a sample."""
 
@@ -139,15 +141,16 @@ def estimate_rows(estimate: Estimate, sample_period: float) -> tuple[EstimateRow
 
 def _row(time: RunTime, sample_period: float) -> EstimateRow:
     if time.seconds is None:
-        return EstimateRow(time.cpu, time.block, "no bound", "")
+        return EstimateRow(time.cpu, time.block, NO_BOUND, "")
     share = "" if time.block == MAIN else f"{100.0 * time.seconds / sample_period:.2g}"
     return EstimateRow(time.cpu, time.block, f"{1000.0 * time.seconds:.2g}", share)
 
 
-def estimate_context(estimate: Estimate, sample_period: float) -> dict[str, object]:
-    """What import notes may name."""
+def estimate_context(estimate: Estimate, sample_period: float, words: Words = str) -> dict[str, object]:
+    """What import notes may name, in the words of a language."""
+    rows = estimate_rows(estimate, sample_period)
     return {
-        "run_times": estimate_rows(estimate, sample_period),
+        "run_times": tuple(replace(row, milliseconds=words(row.milliseconds)) for row in rows),
         "code_bytes": estimate.code_bytes,
         "data_bytes": estimate.data_bytes,
     }

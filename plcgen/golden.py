@@ -23,6 +23,7 @@ JOB = "job.toml"
 PHASE = "phase"
 MAX_ROWS = 1000
 """A stored trace has one row more at most, and two for each change of phase."""
+READABLE = ("utf-8", "gbk")
 MAX_TRACE_DIFF = 40
 NEVER_STORED = frozenset({"Thumbs.db", "desktop.ini"})
 
@@ -181,10 +182,12 @@ def unified(old: bytes, new: bytes, name: str) -> Iterator[str]:
 
 def _decoded(old: bytes, new: bytes) -> tuple[str, str]:
     """Both in one encoding, so that different bytes never look alike."""
-    try:
-        return old.decode(), new.decode()
-    except UnicodeDecodeError:
-        return old.decode("latin-1"), new.decode("latin-1")
+    for codec in READABLE:
+        try:
+            return old.decode(codec), new.decode(codec)
+        except UnicodeDecodeError:
+            continue
+    return old.decode("latin-1"), new.decode("latin-1")
 
 
 def _all_crlf(text: str) -> bool:

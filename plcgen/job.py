@@ -57,6 +57,7 @@ class Job:
     name: str
     method: str
     targets: tuple[str, ...]
+    language: str
     length_unit: str
     sample_period: float
     keys: AnyFile
@@ -130,6 +131,7 @@ def _job(text: TomlFile) -> Job:
         name=keys.name,
         method=keys.method,
         targets=keys.targets,
+        language=keys.language,
         length_unit=keys.length_unit,
         sample_period=keys.sample_period,
         keys=keys,

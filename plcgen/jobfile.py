@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, TypeAdapter, ValidationInfo, model_v
 from plcgen.jobfile_cosine import CosineLimits
 from plcgen.jobfile_two_axis import LONGEST_TIMED_INTERRUPT, TwoAxisLimits
 from plcgen.jobrules import UNITS_PER_METRE, Choice, NameRule, Quantity, Table, Whole, whole_milliseconds
-from plcgen.targets import TARGETS
+from plcgen.targets import ENGLISH, LANGUAGES, TARGETS
 
 HIGHEST_CODE_BLOCK = 7999  # FB and FC of the S7-300 CPUs in use; the first generation ends earlier
 HIGHEST_DATA_BLOCK = 16000
@@ -138,6 +138,9 @@ class JobFile(Table):
     method: Method = Field(description="how the motion is planned", examples=["hoist"])
     targets: Targets = Field(
         description="controllers and languages to write source for", examples=[["s7-300-scl", "tia-scl"]]
+    )
+    language: Annotated[str, Choice(LANGUAGES)] = Field(
+        ENGLISH, description="of the comments in the sources and of the import notes; names stay English"
     )
     length_unit: Annotated[str, Choice(tuple(UNITS_PER_METRE))] = Field(
         description="length unit of all other keys, and of the encoder", examples=["m"]

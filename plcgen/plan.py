@@ -12,6 +12,7 @@ from plcgen.job import Job
 from plcgen.profile.constants import ConstantGroup
 from plcgen.render.environment import render
 from plcgen.render.files import OutputFile
+from plcgen.render.language import words_of
 from plcgen.render.mnemonics import to_german
 from plcgen.render.smart_source import number_networks
 from plcgen.targets import TARGETS, Target
@@ -85,14 +86,16 @@ class Plan(ABC):
         """Files of a target by name, encoded as its engineering tool reads them."""
         context = self.context(target, verified)
         code = {file.name: self._file(target, file, context) for file in self.outputs(target) if not file.is_note}
-        told = estimate_context(self.estimate(target, code), self.job.sample_period)
+        told = estimate_context(self.estimate(target, code), self.job.sample_period, words_of(self.job.language))
         notes = {file.name: self._file(target, file, context | told) for file in self.outputs(target) if file.is_note}
         return code | notes
 
     def _file(self, target: str, file: OutputFile, context: dict[str, object]) -> bytes:
         row = TARGETS[target]
-        text = finished(self.job, row, file, render(f"{row.folder}/{self.job.method}/{file.template}", context))
-        return text.replace("\n", row.newline).encode("utf-8" if file.is_note else row.encoding)
+        language = self.job.language
+        text = render(f"{row.folder}/{self.job.method}/{file.template}", context, language)
+        codec = "utf-8" if file.is_note else row.codec(language)
+        return finished(self.job, row, file, text).replace("\n", row.newline).encode(codec)
 
     def estimate(self, target: str, files: Files) -> Estimate:
         """Run time and memory of the sources of a target."""

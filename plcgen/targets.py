@@ -7,6 +7,11 @@ from dataclasses import dataclass
 from plcgen.errors import PlcgenError
 from plcgen.names import nearest, one_of
 
+ENGLISH, CHINESE = "en", "zh"
+CODE_PAGES = {ENGLISH: "ascii", CHINESE: "gbk"}
+"""Code page by the language of comments: ASCII is part of each, 936 is that of a Windows in China."""
+LANGUAGES = tuple(CODE_PAGES)
+
 
 @dataclass(frozen=True)
 class Target:
@@ -17,10 +22,14 @@ class Target:
     folder: str  # below templates/
     dialect: str  # name of the language's dialect
     suffix: str  # of a source file
-    encoding: str  # Python's name of the codec
+    own_codec: str | None  # Python's name; None where the tool reads the code page of Windows
     newline: str
     max_identifier: int  # characters in the name of a block or variable
     methods: frozenset[str]
+
+    def codec(self, language: str) -> str:
+        """Python's name of the codec of files whose comments are in a language."""
+        return self.own_codec or CODE_PAGES[language]
 
 
 TARGETS = {
@@ -32,7 +41,7 @@ TARGETS = {
             folder="s7-300-scl",
             dialect="classic",
             suffix=".scl",
-            encoding="ascii",
+            own_codec=None,
             newline="\r\n",
             max_identifier=24,
             methods=frozenset({"hoist", "cosine"}),
@@ -43,7 +52,7 @@ TARGETS = {
             folder="s7-300-stl",
             dialect="stl",
             suffix=".awl",
-            encoding="ascii",
+            own_codec=None,
             newline="\r\n",
             max_identifier=24,
             methods=frozenset({"hoist", "cosine"}),
@@ -54,7 +63,7 @@ TARGETS = {
             folder="tia-scl",
             dialect="tia",
             suffix=".scl",
-            encoding="utf-8-sig",
+            own_codec="utf-8-sig",
             newline="\r\n",
             max_identifier=128,
             methods=frozenset({"hoist", "cosine"}),
@@ -65,7 +74,7 @@ TARGETS = {
             folder="s7-200-smart",
             dialect="smart",
             suffix=".awl",
-            encoding="ascii",
+            own_codec=None,
             newline="\r\n",
             max_identifier=23,
             methods=frozenset({"cosine", "two-axis"}),

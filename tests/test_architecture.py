@@ -156,6 +156,7 @@ SHIPPED = (
     "docs",
     ".ci",
     "README.md",
+    "README.zh.md",
     "CHANGELOG.md",
     "LICENSE",
     "pyproject.toml",

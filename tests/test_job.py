@@ -68,7 +68,7 @@ def test_two_axis_example_shows_the_defaults() -> None:
     lines = TWO_AXIS_EXAMPLE.read_text(encoding="utf-8").splitlines()
     optional = [line for line in lines if "# optional: " in line]
     bare = parse_job("\n".join(line for line in lines if line not in optional), "bare.toml")
-    assert len(optional) == 7
+    assert len(optional) == 8
     assert bare.two_axis == read_job(TWO_AXIS_EXAMPLE).two_axis
 
 

@@ -344,6 +344,7 @@ def test_the_example_names_every_key() -> None:
 def test_what_the_example_calls_a_default_is_one() -> None:
     optional = [line for line in EXAMPLE.read_text(encoding="utf-8").split("\n") if "# optional" in line]
     assert [line.split(" ")[0] for line in optional] == [
+        "language",
         "filter_length",
         "fit",
         "shape",

@@ -253,7 +253,7 @@ CASES = [
     (
         '"two-axis"',
         '"hoist"',
-        "7:2: unknown table [two-axis]; known here: name, method, targets, length_unit, sample_period, mnemonics, hoist, blocks (the first of 2 problems)",
+        "7:2: unknown table [two-axis]; known here: name, method, targets, language, length_unit, sample_period, mnemonics, hoist, blocks (the first of 2 problems)",
     ),
     ('"two-axis"', '"twoaxis"', '2:10: method = "twoaxis" is unknown; write "two-axis"'),
     ('"two-axis"', '"two_axis"', '2:10: method = "two_axis" is unknown; write "two-axis"'),
@@ -261,7 +261,7 @@ CASES = [
     (
         "[two-axis]\n",
         "[hoist]\n",
-        "7:2: unknown table [hoist]; known here: name, method, targets, length_unit, sample_period, two-axis (the first of 5 problems)",
+        "7:2: unknown table [hoist]; known here: name, method, targets, language, length_unit, sample_period, two-axis (the first of 5 problems)",
     ),
     (TABLE, "", "1:1: the job lacks the table [two-axis]; `plcgen new two-axis` writes an example"),
     ("max_acceleration", "acceleration", "9:1: unknown key two-axis.acceleration; did you mean max_acceleration?"),
@@ -290,7 +290,7 @@ CASES = [
     (
         "y = 2.5",
         "y = 2.5\n[blocks]\nfb = 1",
-        "24:2: unknown table [blocks]; known here: name, method, targets, length_unit, sample_period, two-axis",
+        "24:2: unknown table [blocks]; known here: name, method, targets, language, length_unit, sample_period, two-axis",
     ),
     (
         "pulses_per_unit = 60000",

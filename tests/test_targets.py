@@ -17,11 +17,13 @@ def test_each_row_is_found_by_its_name() -> None:
 
 def test_spelling_on_disk() -> None:
     classic, tia, smart = target("s7-300-scl"), target("tia-scl"), target("s7-200-smart")
-    assert (classic.encoding, classic.newline, classic.suffix, classic.max_identifier) == ("ascii", "\r\n", ".scl", 24)
+    assert (classic.own_codec, classic.newline, classic.suffix, classic.max_identifier) == (None, "\r\n", ".scl", 24)
     stl = target("s7-300-stl")
-    assert (stl.encoding, stl.newline, stl.suffix, stl.max_identifier) == ("ascii", "\r\n", ".awl", 24)
-    assert (tia.encoding, tia.newline, tia.suffix, tia.max_identifier) == ("utf-8-sig", "\r\n", ".scl", 128)
-    assert (smart.encoding, smart.newline, smart.suffix, smart.max_identifier) == ("ascii", "\r\n", ".awl", 23)
+    assert (stl.own_codec, stl.newline, stl.suffix, stl.max_identifier) == (None, "\r\n", ".awl", 24)
+    assert (tia.own_codec, tia.newline, tia.suffix, tia.max_identifier) == ("utf-8-sig", "\r\n", ".scl", 128)
+    assert (smart.own_codec, smart.newline, smart.suffix, smart.max_identifier) == (None, "\r\n", ".awl", 23)
+    assert (classic.codec("en"), classic.codec("zh"), smart.codec("zh")) == ("ascii", "gbk", "gbk")
+    assert (tia.codec("en"), tia.codec("zh")) == ("utf-8-sig", "utf-8-sig")
 
 
 @pytest.mark.parametrize(

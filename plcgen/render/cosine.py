@@ -6,12 +6,19 @@ from dataclasses import dataclass
 
 from plcgen.job import Job
 from plcgen.profile.constants import ConstantGroup
-from plcgen.render.files import OutputFile
+from plcgen.render.comments import Words
+from plcgen.render.files import OutputFile, described
+from plcgen.render.language import words_of
 from plcgen.render.scl_source import NUMBERED, SymbolLine, address, constant_lines, source_context
 from plcgen.targets import TARGETS
 
 BODIES = {"centred": "ramp", "half-sine": "move"}
 """Stem of the templates by shape."""
+PURPOSES = {
+    "centred": "speed ramps behind a moving average",
+    "half-sine": "moves of half-sine speed behind a moving average",
+}
+"""Of the function block, by shape."""
 
 
 @dataclass(frozen=True)
@@ -51,28 +58,27 @@ def output_files(job: Job, target: str) -> tuple[OutputFile, ...]:
 
 def cosine_context(job: Job, groups: tuple[ConstantGroup, ...], target: str, verified: bool) -> dict[str, object]:
     """Everything the templates of one target may name."""
-    names = block_names(job, target)
+    names, words = block_names(job, target), words_of(job.language)
     length = job.cosine.filter_length
     return {
         **vars(names),
         **source_context(job, verified),
-        "constant_groups": constant_lines(groups),
+        "constant_groups": constant_lines(groups, words),
         "filter_length": length,
         "averages": length > 1,
         "last_index": length - 1,
         "ring": range(length),
         "max_velocity": job.cosine.max_velocity,
-        "symbols": _symbols(job),
-        "files": output_files(job, target),
+        "symbols": _symbols(job, words),
+        "files": described(output_files(job, target), words),
         "blocks_in_order": f"{names.fb}, {names.db}",
     }
 
 
-def _symbols(job: Job) -> tuple[SymbolLine, ...]:
+def _symbols(job: Job, words: Words) -> tuple[SymbolLine, ...]:
     blocks = job.function_block
     fb = address("FB", blocks.fb)
-    purposes = {"centred": "speed ramps", "half-sine": "moves of half-sine speed"}
     return (
-        SymbolLine(blocks.fb_name, fb, fb, f"{purposes[job.cosine.shape]} behind a moving average"),
-        SymbolLine(blocks.db_name, address("DB", blocks.db), fb, "its instance data"),
+        SymbolLine(blocks.fb_name, fb, fb, words(PURPOSES[job.cosine.shape])),
+        SymbolLine(blocks.db_name, address("DB", blocks.db), fb, words("its instance data")),
     )

@@ -8,7 +8,8 @@ from plcgen import __version__
 from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
 from plcgen.render.cosine_memory import BYTES_OF_A_COUNT, is_ramp, layout
-from plcgen.render.files import OutputFile
+from plcgen.render.files import OutputFile, described
+from plcgen.render.language import words_of
 from plcgen.render.smart_source import Named, ParameterLine, Routine, calls, heads, parameter_lines, parameter_note
 
 # An analog output of this is full speed.
@@ -43,10 +44,10 @@ _PERIOD = ("SAMPLE_PERIOD", "s", "T: period of the timed interrupt")
 def routines(job: Job) -> dict[str, Routine]:
     """Blocks with their numbers."""
     number = job.cosine.first_subroutine
-    what = "speed ramps" if is_ramp(job) else "moves"
+    sample = "one sample of the speed ramps" if is_ramp(job) else "one sample of the moves"
     return {
         "init": Routine(f"{job.name}_Init:SBR{number}", "parameters, cold start, timed interrupt"),
-        "sample": Routine(f"{job.name}_Sample:SBR{number + 1}", f"one sample of the {what}"),
+        "sample": Routine(f"{job.name}_Sample:SBR{number + 1}", sample),
         "tick": Routine(f"{job.name}_Tick:INT{job.cosine.interrupt_routine}", "timed interrupt"),
     }
 
@@ -68,15 +69,16 @@ def output_files(job: Job) -> tuple[OutputFile, ...]:
 
 
 def _parameters(job: Job, groups: Sequence[ConstantGroup], addresses: dict[str, str]) -> tuple[ParameterLine, ...]:
+    words = words_of(job.language)
     name, unit, comment = _PERIOD
     period = Constant(name, job.sample_period, unit, comment)
-    first = ParameterLine(period.value, addresses["cycle_time"], parameter_note(period))
-    return (first, *parameter_lines(groups, _LOADED, addresses))
+    first = ParameterLine(period.value, addresses["cycle_time"], parameter_note(period, words))
+    return (first, *parameter_lines(groups, _LOADED, addresses, words))
 
 
 def cosine_smart_context(job: Job, groups: tuple[ConstantGroup, ...], verified: bool) -> dict[str, object]:
     """Everything the templates may name."""
-    keys, memory, blocks = job.cosine, layout(job), routines(job)
+    keys, memory, blocks, words = job.cosine, layout(job), routines(job), words_of(job.language)
     addresses = memory.addresses()
     return {
         "name": job.name,
@@ -100,7 +102,7 @@ def cosine_smart_context(job: Job, groups: tuple[ConstantGroup, ...], verified: 
         "analog_gain": FULL_SCALE / keys.max_velocity,
         "is_ramp": is_ramp(job),
         "symbols": memory.symbols(job),
-        "files": output_files(job),
+        "files": described(output_files(job), words),
         "tab": "\t",
         "first_byte": memory.first_byte,
         "last_byte": memory.end - 1,

@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BaseLoader, Environment, FileSystemLoader, StrictUndefined
 
+from plcgen.render.comments import padded
+from plcgen.render.files import template_folder
+from plcgen.render.language import TranslatedLoader
 from plcgen.render.literals import real_literal, stl_real_literal
-
-
-def template_folder() -> Path:
-    """`templates/` beside the package in a checkout, inside the package in a wheel."""
-    package = Path(__file__).resolve().parent.parent
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"
+from plcgen.targets import ENGLISH
 
 
 def column(value: object, width: int) -> str:
     """Text padded with blanks to a column; longer text keeps its length."""
-    return str(value).ljust(width)
+    return padded(str(value), width)
 
 
 @cache
-def environment() -> Environment:
+def environment(language: str = ENGLISH) -> Environment:
     templates = Environment(
-        loader=FileSystemLoader(template_folder()),
+        loader=_loader(language),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -38,6 +34,10 @@ def environment() -> Environment:
     return templates
 
 
-def render(template: str, context: dict[str, object]) -> str:
-    """Text of a template with LF line ends."""
-    return environment().get_template(template).render(context)
+def _loader(language: str) -> BaseLoader:
+    return FileSystemLoader(template_folder()) if language == ENGLISH else TranslatedLoader(language)
+
+
+def render(template: str, context: dict[str, object], language: str = ENGLISH) -> str:
+    """Text of a template with LF line ends, its comments in a language."""
+    return environment(language).get_template(template).render(context)

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from plcgen.job import Job
 from plcgen.profile.hoist import Trip
 from plcgen.profile.hoist_constants import hoist_constants
-from plcgen.render.files import OutputFile
+from plcgen.render.comments import Words
+from plcgen.render.files import OutputFile, described
+from plcgen.render.language import words_of
 from plcgen.render.scl_source import NUMBERED, SymbolLine, address, constant_lines, source_context
 from plcgen.targets import TARGETS
 
@@ -52,19 +54,19 @@ def block_names(job: Job, target: str) -> BlockNames:
 
 def hoist_context(job: Job, trip: Trip, target: str, verified: bool) -> dict[str, object]:
     """Everything the templates of one target may name."""
-    names = block_names(job, target)
+    names, words = block_names(job, target), words_of(job.language)
     return {
         **vars(names),
         **source_context(job, verified),
         "travel": job.hoist.travel,
-        "constant_groups": constant_lines(hoist_constants(job, trip)),
-        "symbols": _symbols(job),
-        "files": output_files(job, target),
+        "constant_groups": constant_lines(hoist_constants(job, trip), words),
+        "symbols": _symbols(job, words),
+        "files": described(output_files(job, target), words),
         "blocks_in_order": ", ".join((names.velocity_fc, names.travel_fc, names.fb, names.db)),
     }
 
 
-def _symbols(job: Job) -> tuple[SymbolLine, ...]:
+def _symbols(job: Job, words: Words) -> tuple[SymbolLine, ...]:
     blocks = job.blocks
     fb = address("FB", blocks.fb)
     rows = (
@@ -73,4 +75,4 @@ def _symbols(job: Job) -> tuple[SymbolLine, ...]:
         (blocks.velocity_name, *[address("FC", blocks.fc)] * 2, "velocity of a transition"),
         (blocks.travel_name, *[address("FC", blocks.fc + 1)] * 2, "travel of a transition"),
     )
-    return tuple(SymbolLine(*row) for row in rows)
+    return tuple(SymbolLine(name, place, kind, words(comment)) for name, place, kind, comment in rows)

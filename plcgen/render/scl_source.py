@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from plcgen import __version__
 from plcgen.job import Job
 from plcgen.profile.constants import Constant, ConstantGroup
+from plcgen.render.comments import Words
+from plcgen.render.language import words_of
 
 # STEP 7 takes two numbers of 0..15; it is the version of the blocks, not of plcgen.
 BLOCK_VERSION = "0.1"
@@ -51,7 +53,7 @@ def source_context(job: Job, verified: bool) -> dict[str, object]:
         "job_file": job.file,
         "job_sha256": job.sha256,
         "unverified": not verified,
-        "mnemonics": job.mnemonics.capitalize(),
+        "mnemonics": words_of(job.language)(job.mnemonics.capitalize()),
         "unit": job.length_unit,
         "sample_period": job.sample_period,
         "period_ms": f"{job.sample_period * 1000:g}",
@@ -59,16 +61,23 @@ def source_context(job: Job, verified: bool) -> dict[str, object]:
     }
 
 
-def constant_lines(groups: Iterable[ConstantGroup]) -> tuple[ConstantLines, ...]:
+def constant_lines(groups: Iterable[ConstantGroup], words: Words) -> tuple[ConstantLines, ...]:
     """Groups of constants as templates list them."""
     return tuple(
-        ConstantLines(g.title, tuple(ConstantLine(c.name, c.value, _note(c)) for c in g.constants)) for g in groups
+        ConstantLines(words(g.title), tuple(ConstantLine(c.name, c.value, note(c, words)) for c in g.constants))
+        for g in groups
     )
 
 
-def _note(constant: Constant) -> str:
-    origin = f" {constant.origin}" if constant.origin else ""
-    return f"{constant.unit}, {constant.comment}{origin}"
+def note(constant: Constant, words: Words) -> str:
+    """What stands behind a constant: unit, meaning and origin."""
+    origin = f" {words(constant.origin)}" if constant.origin else ""
+    return words("{unit}, {comment}").format(unit=_unit(constant.unit, words), comment=words(constant.comment)) + origin
+
+
+def _unit(unit: str, words: Words) -> str:
+    above, per, below = unit.partition(" per ")
+    return words("{above} per {below}").format(above=above, below=below) if per else unit
 
 
 def address(kind: str, number: int) -> str:

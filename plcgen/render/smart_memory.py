@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from plcgen.job import HIGHEST_V_BYTE, Job
+from plcgen.render.language import words_of
 from plcgen.targets import SMART
 
 SIZES = {"REAL": 4, "DINT": 4, "WORD": 2, "BYTE": 1}
@@ -82,9 +83,9 @@ class MemoryMap:
 
     def symbols(self, job: Job) -> tuple[SymbolLine, ...]:
         """Rows to paste into the symbol table. Each symbol begins with the name of the job."""
-        addresses = self.addresses()
+        addresses, words = self.addresses(), words_of(job.language)
         return tuple(
-            SymbolLine(f"{job.name}_{row.symbol}", addresses[row.name], row.comment.format(u=job.length_unit))
+            SymbolLine(f"{job.name}_{row.symbol}", addresses[row.name], words(row.comment).format(u=job.length_unit))
             for row in self.named
         )
 

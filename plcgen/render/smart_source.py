@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from plcgen.profile.constants import Constant, ConstantGroup
+from plcgen.render.comments import Words
+from plcgen.render.scl_source import note
 
 
 @dataclass(frozen=True)
@@ -51,19 +53,18 @@ class ParameterLine:
 
 
 def parameter_lines(
-    groups: Iterable[ConstantGroup], loaded: Mapping[str, str], addresses: Mapping[str, str]
+    groups: Iterable[ConstantGroup], loaded: Mapping[str, str], addresses: Mapping[str, str], words: Words
 ) -> Iterator[ParameterLine]:
     """The constants that `loaded` gives a variable to."""
     for group in groups:
         for constant in group.constants:
             if constant.name in loaded:
-                yield ParameterLine(constant.value, addresses[loaded[constant.name]], parameter_note(constant))
+                yield ParameterLine(constant.value, addresses[loaded[constant.name]], parameter_note(constant, words))
 
 
-def parameter_note(constant: Constant) -> str:
+def parameter_note(constant: Constant, words: Words) -> str:
     """What stands behind a constant in Init."""
-    origin = f" {constant.origin}" if constant.origin else ""
-    return f"{constant.name}: {constant.unit}, {constant.comment}{origin}"
+    return words("{name}: {note}").format(name=constant.name, note=note(constant, words))
 
 
 def number_networks(text: str) -> str:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from plcgen import __version__
 from plcgen.job import Job
 from plcgen.profile.two_axis import LONGEST_TABLE, SLOWEST_TABLE, TRAIN_SHARE, two_axis_constants
-from plcgen.render.files import OutputFile
+from plcgen.render.comments import Words
+from plcgen.render.files import OutputFile, described
+from plcgen.render.language import words_of
 from plcgen.render.smart_source import Named, ParameterLine, Routine, calls, heads, parameter_lines
 from plcgen.render.two_axis_memory import FINEST, LEAST_JERK, SHARE, SHORTEST, STEPS, layout, memory_map
 
@@ -125,10 +127,10 @@ TABLE_CONSTANTS = (
 )
 
 
-def _parameters(job: Job, addresses: dict[str, str]) -> Iterator[ParameterLine]:
-    yield from parameter_lines(two_axis_constants(job), _LOADED, addresses)
+def _parameters(job: Job, addresses: dict[str, str], words: Words) -> Iterator[ParameterLine]:
+    yield from parameter_lines(two_axis_constants(job), _LOADED, addresses, words)
     if job.two_axis.mode == "table":
-        yield from (ParameterLine(value, addresses[name], note) for value, name, note in TABLE_CONSTANTS)
+        yield from (ParameterLine(value, addresses[name], words(note)) for value, name, note in TABLE_CONSTANTS)
 
 
 def output_files(job: Job) -> tuple[OutputFile, ...]:
@@ -169,7 +171,7 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
     addresses = memory_map(job)
     blocks = routines(job)
     x, y = ports(job, addresses)
-    keys = job.two_axis
+    keys, words = job.two_axis, words_of(job.language)
     return {
         "name": job.name,
         "version": __version__,
@@ -184,16 +186,19 @@ def two_axis_context(job: Job, verified: bool) -> dict[str, object]:
         "ports": (x, y),
         "x": x,
         "y": y,
-        "parameters": tuple(_parameters(job, addresses)),
+        "parameters": tuple(_parameters(job, addresses, words)),
         "ignore_below": keys.ignore_below,
         "least_jerk": LEAST_JERK,
         "fixed_jerk_time": keys.short_moves == "fixed-jerk-time",
         "milliseconds": round(job.sample_period * 1000),
         "train_share": f"{100 * TRAIN_SHARE:g}",
         "symbols": layout(job).symbols(job),
-        "files": output_files(job),
+        "files": described(output_files(job), words),
         "tab": "\t",
-        "axes": (TableAxis("leading axis", False, addresses), TableAxis("other axis", True, addresses)),
+        "axes": (
+            TableAxis(words("leading axis"), False, addresses),
+            TableAxis(words("other axis"), True, addresses),
+        ),
         "steps": STEPS,
         "is_table": keys.mode == "table",
         "is_sampled": keys.mode != "table",

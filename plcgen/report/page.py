@@ -16,11 +16,11 @@ from plcgen import __version__, pipeline, tables
 from plcgen.check.verdict import Verdict
 from plcgen.errors import PlcgenError
 from plcgen.plan import Files, Plan
+from plcgen.plc.source import decode_source
 from plcgen.report.cosine import cosine_figures
 from plcgen.report.figures import Figure, differing
 from plcgen.report.hoist import hoist_figures
 from plcgen.report.two_axis import two_axis_figures
-from plcgen.targets import TARGETS
 from plcgen.terminal import Table
 
 FIGURES: Mapping[str, Callable[..., tuple[Figure, ...]]] = {
@@ -111,5 +111,6 @@ def _sources(sources: Mapping[str, Files], highlighted: Callable[[str, str], str
         for name, data in files.items():
             suffix = PurePath(name).suffix
             if suffix in SHOWN:
-                text = data.decode(TARGETS[target].encoding, errors="replace").replace("\r\n", "\n")
+                source = decode_source(name, data)
+                text = source.shown(source.text).replace("\r\n", "\n")
                 yield Source(target, name, hashlib.sha256(data).hexdigest(), highlighted(text, suffix))

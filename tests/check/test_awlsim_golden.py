@@ -74,7 +74,7 @@ def test_both_engines_keep_the_same_instance(case: str) -> None:
     job, files = read_job(GOLDEN / case / "job.toml"), sources(case)
     block, data = job.function_block.fb, job.function_block.db
     machine = Machine(load(STL, files), GARBAGE)
-    other = AwlsimBlock([text.decode("ascii") for text in files.values()], block, data)
+    other = AwlsimBlock([text.decode("gbk") for text in files.values()], block, data)
     memory = machine.memory[f"DB{data}"]
     assert other.image == bytes(memory)
     for call, given in enumerate(inputs(job, machine)):

@@ -111,14 +111,14 @@ def test_every_fit_that_can_be_written_is_right(law: Law, name: str) -> None:
         (
             OVERSHOOTS,
             "genetic",
-            '19:7: fit = "genetic" turns back on its way: the speed would overshoot; write another seed',
+            '20:7: fit = "genetic" turns back on its way: the speed would overshoot; write another seed',
         ),
-        (STILL_MOVES, "genetic", '19:7: fit = "genetic" does not end at rest; write another seed'),
-        (STILL_MOVES, "least-squares", '19:7: fit = "least-squares" does not end at rest; write "minimax"'),
+        (STILL_MOVES, "genetic", '20:7: fit = "genetic" does not end at rest; write another seed'),
+        (STILL_MOVES, "least-squares", '20:7: fit = "least-squares" does not end at rest; write "minimax"'),
         (
             BESIDE_THE_MIDDLE,
             "taylor",
-            '19:7: fit = "taylor" has its largest acceleration beside the middle of a ramp; write "minimax"',
+            '20:7: fit = "taylor" has its largest acceleration beside the middle of a ramp; write "minimax"',
         ),
     ],
 )
@@ -136,7 +136,7 @@ def test_refusal_of_a_wrong_fit_of_moves(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(cosine, "fit", lambda name, law, _seed: fit_of(law, ENDS_SHORT, name))
     with pytest.raises(JobError) as caught:
         derive_moves(moves_of(5.0, fit="taylor"))
-    assert first_line(caught.value) == 'job.toml:19:7: fit = "taylor" ends 0.024 beside its mark; write "minimax"'
+    assert first_line(caught.value) == 'job.toml:20:7: fit = "taylor" ends 0.024 beside its mark; write "minimax"'
 
 
 # ------------------------------------------------------------------------------------------------------------- ramps
@@ -147,12 +147,12 @@ def test_refusal_of_a_wrong_fit_of_moves(monkeypatch: pytest.MonkeyPatch) -> Non
     [
         (
             {"sample_period": 0.001, "max_acceleration": 0.01},
-            "12:17: sample_period = 0.001 s is too short: a ramp over the whole range takes 3770 s, 3769886 samples of "
+            "13:17: sample_period = 0.001 s is too short: a ramp over the whole range takes 3770 s, 3769886 samples of "
             "838860 at the most; raise max_acceleration and jerk, or lengthen sample_period",
         ),
         (
             {"sample_period": 0.001, "jerk": 0.0001},
-            "12:17: sample_period = 0.001 s is too short: a ramp over the whole range takes 1088 s, 1088392 samples of "
+            "13:17: sample_period = 0.001 s is too short: a ramp over the whole range takes 1088 s, 1088392 samples of "
             "838860 at the most; raise max_acceleration and jerk, or lengthen sample_period",
         ),
     ],
@@ -192,43 +192,43 @@ def test_ramps_have_the_limits_of_the_job() -> None:
         (
             (5.0, 9000.0),
             {},
-            "29:12: distance = 9000 m takes 117843 samples; 65536 are the most, enough for 5000 m; divide it, or "
+            "30:12: distance = 9000 m takes 117843 samples; 65536 are the most, enough for 5000 m; divide it, or "
             "lengthen sample_period",
         ),
         (
             (-9000.0,),
             {"length_unit": "mm", "sample_period": 0.001, "max_velocity": 0.1},
-            "27:12: distance = -9000 mm takes 141410140 samples; 65536 are the most, enough for 4.17 mm; divide it, "
+            "28:12: distance = -9000 mm takes 141410140 samples; 65536 are the most, enough for 4.17 mm; divide it, "
             "or lengthen sample_period",
         ),
         (
             (1.0,),
             {"sample_period": 0.001, "max_velocity": 0.0001},
-            "27:12: distance = 1 m takes 15712239 samples; 65536 are the most, enough for 0.00417 m; divide it, or "
+            "28:12: distance = 1 m takes 15712239 samples; 65536 are the most, enough for 0.00417 m; divide it, or "
             "lengthen sample_period",
         ),
         (
             (100.0,),
             {"sample_period": 0.001},
-            "27:12: distance = 100 m takes 249082 samples; 65536 are the most, enough for 6.92 m; divide it, or "
+            "28:12: distance = 100 m takes 249082 samples; 65536 are the most, enough for 6.92 m; divide it, or "
             "lengthen sample_period",
         ),
         (
             (7.0,),
             {"sample_period": 0.001},
-            "27:12: distance = 7 m takes 65902 samples; 65536 are the most, enough for 6.92 m; divide it, or "
+            "28:12: distance = 7 m takes 65902 samples; 65536 are the most, enough for 6.92 m; divide it, or "
             "lengthen sample_period",
         ),
         (
             (1.0, 5.0, -1e-7),
             {"max_velocity": 50},
-            "31:12: distance = -1e-07 m is shorter than a count of speed in a sample, 3.05e-07 m; write more, or "
+            "32:12: distance = -1e-07 m is shorter than a count of speed in a sample, 3.05e-07 m; write more, or "
             "lower max_velocity",
         ),
         (
             (1e-9,),
             {},
-            "27:12: distance = 1e-09 m is shorter than a count of speed in a sample, 7.63e-08 m; write more, or "
+            "28:12: distance = 1e-09 m is shorter than a count of speed in a sample, 7.63e-08 m; write more, or "
             "lower max_velocity",
         ),
     ],

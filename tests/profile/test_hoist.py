@@ -278,17 +278,17 @@ def test_golden_trip_with_two_metres_to_the_end_of_creep_out() -> None:
     [
         (
             {"travel": 5.0},
-            "15:10: travel = 5 m is too short: start ramp, creep_out, creep_in and stop ramp need 5.067 m; "
+            "16:10: travel = 5 m is too short: start ramp, creep_out, creep_in and stop ramp need 5.067 m; "
             "shorten creep_out or creep_in, or lower creep_velocity",
         ),
         (
             {"jerk": 5.0, "creep_acceleration": 0.3},
-            "12:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.06 s and needs ten samples; "
+            "13:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.06 s and needs ten samples; "
             "write at most 0.006, or lower jerk",
         ),
         (
             {"jerk": 500.0},
-            "12:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.0006 s and needs ten samples; "
+            "13:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.0006 s and needs ten samples; "
             "lower jerk",
         ),
         (
@@ -300,37 +300,37 @@ def test_golden_trip_with_two_metres_to_the_end_of_creep_out() -> None:
                 "deceleration": 3.0,
                 "creep_velocity": 3.0,
             },
-            "12:17: sample_period = 0.15 s is too long to stop within 1 mm at jerk = 1 m/s3; "
+            "13:17: sample_period = 0.15 s is too long to stop within 1 mm at jerk = 1 m/s3; "
             "write at most 0.114, or lower jerk",
         ),
         (
             {"creep_in": 0.1},
-            "23:12: creep_in = 0.1 m is shorter than what the hoist travels in one sample period at full speed; "
+            "24:12: creep_in = 0.1 m is shorter than what the hoist travels in one sample period at full speed; "
             "write at least 0.12, or shorten sample_period",
         ),
         (
             {"creep_velocity": 0.01, "travel": 6000.0},
-            "20:18: creep_velocity = 0.01 m/s is too slow: at travel = 6000 a REAL does not resolve a sample period "
+            "21:18: creep_velocity = 0.01 m/s is too slow: at travel = 6000 a REAL does not resolve a sample period "
             "of it; write at least 0.2862",
         ),
         (
             {"overwind": 0.01},
-            "32:12: overwind = 0.01 m is too near to the 0.011 that count as arrived; write at least 0.01679, "
+            "33:12: overwind = 0.01 m is too near to the 0.011 that count as arrived; write at least 0.01679, "
             "or lower creep_velocity",
         ),
         (
             {"travel": 5.1},
-            "12:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.01683 s and needs ten samples; "
+            "13:17: sample_period = 0.01 s is too long: the shortest phase lasts 0.01683 s and needs ten samples; "
             "write at most 0.001, or lengthen travel",
         ),
         (
             {"overspeed_factor": 1.0},
-            "25:2: the envelope is 0.00012 m/s too low 492.8 m before the end, where it must lie above the setpoint; "
+            "26:2: the envelope is 0.00012 m/s too low 492.8 m before the end, where it must lie above the setpoint; "
             "raise overspeed_factor, the tracking values, brake_deceleration or end_velocity, or shorten reaction_time",
         ),
         (
             {"brake_deceleration": 0.3},
-            "25:2: the envelope is 4.04 m/s too low 97.62 m before the end, where it must lie above the setpoint; "
+            "26:2: the envelope is 4.04 m/s too low 97.62 m before the end, where it must lie above the setpoint; "
             "raise overspeed_factor, the tracking values, brake_deceleration or end_velocity, or shorten reaction_time",
         ),
     ],

@@ -173,47 +173,47 @@ def test_no_pulses_are_no_move() -> None:
         (
             {"max_velocity": 1.6},
             (),
-            "14:16: max_velocity = 1.6 cm/s takes up to 96025 pulses/s; 93670 can be sent; write at most 1.56, "
+            "15:16: max_velocity = 1.6 cm/s takes up to 96025 pulses/s; 93670 can be sent; write at most 1.56, "
             "or lower pulses_per_unit",
         ),
         (
             {"max_velocity": 0.5, "pulses_per_unit": [1000, 200_000], "sample_period": 0.005},
             (),
-            "14:16: max_velocity = 0.5 cm/s takes up to 100001 pulses/s; 92950 can be sent; write at most 0.4647, "
+            "15:16: max_velocity = 0.5 cm/s takes up to 100001 pulses/s; 92950 can be sent; write at most 0.4647, "
             "or lower pulses_per_unit",
         ),
         (
             {"max_acceleration": 0.01},
             (),
-            "15:20: max_acceleration = 0.01 takes 6750450 pulses to full speed; 4194304 are the most; "
+            "16:20: max_acceleration = 0.01 takes 6750450 pulses to full speed; 4194304 are the most; "
             "raise it or jerk, or lower max_velocity",
         ),
         (
             {"short_moves": "fixed-jerk-time", "jerk": 0.5},
             (),
-            '20:15: short_moves = "fixed-jerk-time" needs max_velocity >= max_acceleration^2/jerk = 2; '
+            '21:15: short_moves = "fixed-jerk-time" needs max_velocity >= max_acceleration^2/jerk = 2; '
             'raise jerk, or write "time-optimal"',
         ),
         (
             {"max_velocity": 0.001},
             ((1.0, 0.0), (1000.0, 0.0)),
-            "31:3: the move takes 20000002 samples; 8388608 are the most; lengthen sample_period",
+            "32:3: the move takes 20000002 samples; 8388608 are the most; lengthen sample_period",
         ),
         (
             {"max_velocity": 0.001, "mode": "table"},
             ((0.1, 0.0), (1.0, 0.0)),
-            '31:3: the move takes 1000 s; a table holds 640 s; divide it, or write mode = "interrupt"',
+            '32:3: the move takes 1000 s; a table holds 640 s; divide it, or write mode = "interrupt"',
         ),
         (
             {"mode": "table", "ignore_below": 0},
             ((1.5, 0.0001), (1.5, 0.0)),
-            "27:3: an axis sends 1.65 pulses/s in the mean; a table needs 8, for an output cannot go below 1 Hz; "
+            "28:3: an axis sends 1.65 pulses/s in the mean; a table needs 8, for an output cannot go below 1 Hz; "
             'raise ignore_below, or write mode = "interrupt"',
         ),
         (
             {"mode": "table", "jerk": 1000},
             ((1.5, 0.0),),
-            '27:3: a phase of jerk takes 1 ms; a table needs 2 ms; lower jerk, or write mode = "interrupt"',
+            '28:3: a phase of jerk takes 1 ms; a table needs 2 ms; lower jerk, or write mode = "interrupt"',
         ),
     ],
 )

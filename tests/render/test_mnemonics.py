@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from plcgen.render.environment import template_folder
+from plcgen.render.files import template_folder
 from plcgen.render.mnemonics import ADDRESSES, INSTRUCTIONS, to_german
 
 FRAME = "FUNCTION FC 1 : VOID\nVAR_TEMP\n  A : BOOL;  // JU\nEND_VAR\nBEGIN\nNETWORK\n{}\nEND_FUNCTION\n"

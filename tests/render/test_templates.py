@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 from jinja2 import StrictUndefined, TemplateSyntaxError, UndefinedError, nodes
 
-from plcgen.render.environment import column, environment, render, template_folder
+from plcgen.render.environment import column, environment, render
+from plcgen.render.files import template_folder
 
 ROOT = Path(__file__).parents[2]
 TEMPLATES = sorted(path for path in template_folder().rglob("*") if path.is_file())

@@ -96,7 +96,7 @@ def test_the_last_byte_may_be_used_and_no_further(mode: str) -> None:
     with pytest.raises(JobError) as caught:
         refuse_what_does_not_fit(job_of(mode, highest + 1))
     assert str(caught.value).split("\n")[0] == (
-        f"job.toml:20:12: v_memory = {highest + 1} leaves too little: {NEEDED[mode]} bytes are needed up to VB8191; "
+        f"job.toml:22:12: v_memory = {highest + 1} leaves too little: {NEEDED[mode]} bytes are needed up to VB8191; "
         f"write at most {highest}"
     )
 

@@ -51,6 +51,16 @@ class Balance(HTMLParser):
         assert self.open.pop() == tag
 
 
+def test_chinese_comments_are_shown_in_every_encoding() -> None:
+    files = {target: GOLDEN / "chinese-ramps" / target for target in ("s7-300-scl", "s7-200-smart", "tia-scl")}
+    sources = {
+        target: {path.name: path.read_bytes() for path in sorted(folder.iterdir())} for target, folder in files.items()
+    }
+    shown = [source.html for source in pages._sources(sources, lambda text, _suffix: text)]
+    assert shown
+    assert all("// 由 plcgen" in text for text in shown)
+
+
 def test_nothing_is_loaded_and_every_element_closed() -> None:
     parser = Balance()
     parser.feed(written())

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from plcgen.plc.importrules.finding import Hit, Subject
 from plcgen.plc.scl.syntax import Block
-from plcgen.plc.source import BYTE_ORDER_MARK, Span
+from plcgen.plc.source import BYTE_ORDER_MARK, EIGHT_BIT, UTF_8, Span
 
 MAX_LINE = 126
 MAX_HEADER_WORD = 8
@@ -28,19 +28,20 @@ def byte_order_mark(subject: Subject) -> Iterator[Hit]:
 
 def utf8(subject: Subject) -> Iterator[Hit]:
     place = _first_wide(subject)
-    if subject.source.encoding != "utf-8" and place:
+    if subject.source.encoding != UTF_8 and place:
         yield place, "not UTF-8: this character depends on the code page of the PC; save as UTF-8 with BOM"
 
 
 def one_byte_characters(subject: Subject) -> Iterator[Hit]:
     place = _first_wide(subject)
-    if subject.source.encoding == "utf-8" and place:
+    if subject.source.encoding == UTF_8 and place:
         yield place, "UTF-8 character of several bytes, which STEP 7 V5 reads as several characters; write ASCII"
 
 
 def plain_ascii(subject: Subject) -> Iterator[Hit]:
+    """Chinese is left alone: who writes it has a Chinese Windows."""
     place = _first_wide(subject)
-    if subject.source.encoding != "utf-8" and place:
+    if subject.source.encoding == EIGHT_BIT and place:
         yield place, "this character depends on the code page of the PC; ASCII is safe everywhere"
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from plcgen.plc.importrules.finding import Hit
 from plcgen.plc.importrules.smart_subject import SmartSubject
-from plcgen.plc.source import BYTE_ORDER_MARK, Span
+from plcgen.plc.source import BYTE_ORDER_MARK, EIGHT_BIT, UTF_8, Span
 from plcgen.plc.stl.syntax import Block, BlockKind
 
 IDENTIFIER_LENGTH = 23
@@ -24,12 +24,13 @@ def no_byte_order_mark(subject: SmartSubject) -> Iterator[Hit]:
 
 
 def plain_ascii(subject: SmartSubject) -> Iterator[Hit]:
+    """Chinese in GBK is left alone: Micro/WIN SMART is at home in China."""
     match = re.search(r"[^\x00-\x7f]", subject.source.text)
     if match is None:
         return
-    if subject.source.encoding == "utf-8":
+    if subject.source.encoding == UTF_8:
         yield Span(*match.span()), "UTF-8 character; Micro/WIN reads the code page of the PC, write ASCII"
-    else:
+    elif subject.source.encoding == EIGHT_BIT:
         yield Span(*match.span()), "this character depends on the code page of the PC; ASCII is safe everywhere"
 
 
