@@ -57,7 +57,7 @@ def test_tables_have_the_same_numbers() -> None:
 
 @pytest.mark.parametrize("text", [ENGLISH, CHINESE])
 def test_there_are_tables(text: str) -> None:
-    assert len(tables(text)) == 6
+    assert len(tables(text)) == 7
     assert any("`language`" in row for row in rows(text))
 
 
