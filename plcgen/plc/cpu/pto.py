@@ -145,6 +145,16 @@ class Channel:
         return self._running
 
     @property
+    def has_direction(self) -> bool:
+        """Whether an output says which way its pulses count."""
+        return self._direction is not None
+
+    @property
+    def has_load_waiting(self) -> bool:
+        """Whether another train begins when the running one ends."""
+        return self._waiting is not None
+
+    @property
     def next_change(self) -> float:
         """When the running train ends by itself."""
         return self._end if self._running else math.inf
@@ -171,6 +181,8 @@ class Channel:
     def refresh(self, now: int) -> None:
         """Status and segment number in special memory, before any program text runs."""
         self._now = now
+        if self._running:
+            self.advance(now)
         port, special = self.port, self._special
         special[port.status] = special[port.status] & 0x70 | self._flags | (0 if self._running else IDLE)
         special[port.segment] = self._running_number() if self._running else 0
@@ -185,7 +197,7 @@ class Channel:
 
     def watch_direction(self, now: int) -> None:
         """Note a direction output that changed under a running train."""
-        self._now = now
+        self.advance(now)
         if self._running and self._direction is not None:
             bit = self._direction()
             if bit != self._seen_direction:

@@ -248,7 +248,7 @@ class Smart:
 
     def _watch_directions(self) -> None:
         for channel in self._channels:
-            if channel.busy:
+            if channel.busy and channel.has_direction:
                 channel.watch_direction(self.time_us)
 
     def _stop(self) -> None:
@@ -268,12 +268,15 @@ class Smart:
         self.time_us = max(self.time_us, until)
 
     def _next_moment(self) -> int:
-        """When something next happens, far off when nothing will."""
+        """When something next happens, far off when nothing will.
+
+        The end of a train that nobody waits for is no event: it is seen when the output is looked at next.
+        """
         moment = _NEVER
         for ticks in self._ticks.values():
             moment = min(moment, ticks.due)
-        for channel in self._channels:
-            if channel.busy:
+        for event, channel in self._by_event.items():
+            if channel.busy and (channel.has_load_waiting or event in self._attached):
                 moment = min(moment, math.ceil(channel.next_change))
         if self._queue and self._enabled:
             moment = min(moment, self._free_from(self.time_us))
