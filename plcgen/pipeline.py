@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from importlib import import_module
 
-from plcgen.check.binary_result import binary_result
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.estimates import Estimate
 from plcgen.job import Job
 from plcgen.loading import read_stl
 from plcgen.plan import Derivation, Files, Plan, Progress
-from plcgen.plan_cosine import cosine_plan
-from plcgen.plan_hoist import HoistPlan
-from plcgen.plan_two_axis import TwoAxisPlan
 from plcgen.trajectory import Trajectory, disagreements
 
 SCL, STL = "s7-300-scl", "s7-300-stl"
 
-METHODS: dict[str, Callable[[Job], Plan]] = {"hoist": HoistPlan.of, "cosine": cosine_plan, "two-axis": TwoAxisPlan.of}
+METHODS = {"hoist": "plan_hoist", "cosine": "plan_cosine", "two-axis": "plan_two_axis"}
+"""The module of each method, which is imported when a job asks for it."""
 
 
 def prepare(job: Job) -> Plan:
     """Raises JobError where the limits of the job cannot be met."""
-    return METHODS[job.method](job)
+    plan: Plan = import_module(f"plcgen.{METHODS[job.method]}").prepare(job)
+    return plan
 
 
 def derivation(plan: Plan) -> Derivation:
@@ -47,6 +46,8 @@ def verify(
     verdict = plan.verify(target, files, progress, fail_fast)
     if target != STL or (fail_fast and not verdict.ok):
         return verdict
+    from plcgen.check.binary_result import binary_result
+
     return TargetVerdict((*verdict.checks, binary_result(read_stl(files)), agreement(plan, files)))
 
 

@@ -40,7 +40,7 @@ GARBAGE = (0x7F, 0x00)
 """Bytes that fill temporaries before each call: a large REAL or nothing, one after the other with each fresh block."""
 
 
-def cosine_plan(job: Job) -> CosinePlan:
+def prepare(job: Job) -> CosinePlan:
     """Raises JobError where the limits of the job cannot be met or its memory does not fit."""
     if SMART.name in job.targets:
         refuse_what_does_not_fit(job)

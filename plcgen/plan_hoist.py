@@ -67,6 +67,11 @@ class HoistPlan(Plan):
         return Subject(load(target, files), block, instance, hoist_model(self))
 
 
+def prepare(job: Job) -> HoistPlan:
+    """Raises JobError where the limits of the job cannot be met."""
+    return HoistPlan.of(job)
+
+
 def hoist_model(plan: HoistPlan) -> HoistModel:
     """The references that the checks ask for."""
     limits, trip = plan.job.hoist, plan.trip

@@ -90,6 +90,11 @@ class TwoAxisPlan(Plan):
         return Subject(load(self.job, files), two_axis_model(self), load(self.job, files, timed=True))
 
 
+def prepare(job: Job) -> TwoAxisPlan:
+    """Raises JobError where the limits of the job cannot be met."""
+    return TwoAxisPlan.of(job)
+
+
 def load(job: Job, files: Mapping[str, bytes], timed: bool = False) -> Program:
     """The joined file when it is there, else every block by itself. `timed`: with what counts its run time."""
     joined = f"{job.name}.awl"

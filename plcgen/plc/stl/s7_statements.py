@@ -92,7 +92,9 @@ class Reader:
         if text.startswith("(*", start):
             raise self.source.error("(* *) is no comment in STL; write //", Span(start, start + 2))
         if match is None:
-            raise self.source.error(f"an instruction expected, found {text[start]}", Span(start, start + 1))
+            found = text[start : start + 1]
+            message = f"an instruction expected, found {found or 'the end of the file'}"
+            raise self.source.error(message, Span(start, start + len(found)))
         self.position = match.end()
         mnemonic = self._english(match.group().upper(), Span(*match.span()))
         end = self._end_of_statement(start)

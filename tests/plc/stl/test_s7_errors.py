@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from plcgen.errors import Fault, SourceError
@@ -285,8 +285,15 @@ def test_any_lines_are_executed_or_refused(lines: list[str]) -> None:
         assert fault.location is not None
 
 
+def test_a_file_that_ends_behind_a_label() -> None:
+    with pytest.raises(SourceError) as raised:
+        parse(SourceText("f.awl", HEAD + "A:"))
+    assert "an instruction expected, found the end of the file" in str(raised.value)
+
+
 @settings(deadline=None)
 @given(st.binary(max_size=200))
+@example(b"A:")
 def test_any_bytes_are_parsed_or_refused(data: bytes) -> None:
     try:
         parse(decode_source("f.awl", HEAD.encode() + data))
