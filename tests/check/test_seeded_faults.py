@@ -14,12 +14,12 @@ from tests.check.harmless_faults_cosine import HARMLESS_MOVE, HARMLESS_RAMP
 from tests.check.seeded_faults import SeededFault, all_faults, source_text, survivors
 
 SAMPLE = {
-    ("hoist", "s7-300-scl"): 130,
-    ("hoist", "tia-scl"): 30,
-    ("ramp", "s7-300-scl"): 90,
-    ("ramp", "tia-scl"): 25,
-    ("move", "s7-300-scl"): 70,
-    ("move", "tia-scl"): 20,
+    ("hoist", "s7-300-scl"): 90,
+    ("hoist", "tia-scl"): 20,
+    ("ramp", "s7-300-scl"): 60,
+    ("ramp", "tia-scl"): 16,
+    ("move", "s7-300-scl"): 48,
+    ("move", "tia-scl"): 14,
 }
 LISTS = {"hoist": HARMLESS, "ramp": HARMLESS_RAMP, "move": HARMLESS_MOVE}
 KNOWN = {case: {row for rows in harmless.values() for row in rows} for case, harmless in LISTS.items()}

@@ -13,7 +13,7 @@ from tests.check.harmless_faults_cosine_stl import S7_MOVE, S7_RAMP
 from tests.check.harmless_faults_s7_stl import HARMLESS
 from tests.check.seeded_faults_s7_stl import all_faults, survivors
 
-SAMPLE = {"hoist": 28, "ramp": 30, "move": 30}
+SAMPLE = {"hoist": 20, "ramp": 20, "move": 20}
 LISTS = {"hoist": HARMLESS, "ramp": S7_RAMP, "move": S7_MOVE}
 KNOWN = {case: {row for rows in harmless.values() for row in rows} for case, harmless in LISTS.items()}
 

@@ -15,7 +15,7 @@ from tests.check.seeded_faults_stl import all_faults, survivors
 
 LISTS = {**HARMLESS, "ramp": SMART_RAMP, "move": SMART_MOVE}
 KNOWN = {case: {row for rows in harmless.values() for row in rows} for case, harmless in LISTS.items()}
-SAMPLE = {"interrupt": 80, "table": 80, "ramp": 40, "move": 40}
+SAMPLE = {"interrupt": 56, "table": 56, "ramp": 28, "move": 28}
 
 
 @pytest.mark.parametrize("case", LISTS)
