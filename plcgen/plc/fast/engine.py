@@ -14,7 +14,7 @@ from plcgen.plc.core import Area, Function, Program
 from plcgen.plc.engine import NO_SERVICES, Site
 from plcgen.plc.fast import vm
 from plcgen.plc.fast.bodies import KINDS
-from plcgen.plc.fast.encode import BASE, FACTOR, SITE, WIDTH, Code, Entry, Request, Target, encoded
+from plcgen.plc.fast.encode import BASE, FACTOR, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
 from plcgen.plc.operators import Operator
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
@@ -82,6 +82,8 @@ class FastEngine:
         self.budget = [0]
         self._note, self._program = note, program
         image = _image(program, areas, first_byte, temp_fill)
+        if image.code.first_byte > len(flat):
+            raise UnsuitableError
         self._sites, self._code, self._memory = image.sites, image.rows, flat
         self._entries, self._requests, self.end = image.code.entries, image.code.requests, image.code.first_byte
         for start, data in image.code.data.items():

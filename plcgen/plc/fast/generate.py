@@ -106,15 +106,16 @@ def _parametrised() -> Iterator[Operator]:
 
 # ----------------------------------------------------------------------------------------------------- the loop
 
+TELL = ("if E[0] > MOST_EVENTS:", "    S[0] = pc - 1", "    return FULL")
+SPEND = ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED")
 FIXED: tuple[tuple[str, ...], ...] = (
     # 0 .. : control
-    ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED", "if E[0] > MOST_EVENTS:", "    S[1] += 1",
-     "    S[0] = pc - 1", "    return FULL", "pc = t - 1"),  # jump backwards
+    (*TELL, *SPEND, "pc = t - 1"),  # jump backwards
     ("pc = t - 1",),
     ("if I[a] != 0:", "    pc = t - 1"),
     ("if I[a] == 0:", "    pc = t - 1"),
-    ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED", "stack[S[2]] = pc", "stack[S[2] + 1] = I[1]",
-     "S[2] += 2", "I[1] = I[a] + b", "pc = t - 1"),  # call
+    (*TELL, *SPEND, "stack[S[2]] = pc", "stack[S[2] + 1] = I[1]", "S[2] += 2", "I[1] = I[a] + b",
+     "pc = t - 1"),  # call
     ("if S[2] == 0:", "    return DONE", "S[2] -= 2", "pc = stack[S[2]]", "I[1] = stack[S[2] + 1]"),  # return
     ("S[0] = pc", "return REQUEST"),
     ("I[t] = I[a]",),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Site
 from plcgen.plc.fast.engine import FastEngine
@@ -55,6 +56,8 @@ class FastRunner:
         """Memory for another instance."""
         start = self._end
         self._end += (len(data) + SPACING - 1) // SPACING * SPACING
+        if self._end > len(self._flat):
+            raise PlcgenError('more instance data than the fast engine has room for; choose the engine "plain"')
         view = self._whole[start : start + len(data)]
         view[:] = data
         return view

@@ -205,14 +205,13 @@ def run(code: Any, room: Any, M: Any) -> int:
         t, a, b, c, d = code[pc, 1], code[pc, 2], code[pc, 3], code[pc, 4], code[pc, 5]
         site = code[pc, 12]
         if op == 0:
+            if E[0] > MOST_EVENTS:
+                S[0] = pc - 1
+                return FULL
             S[1] -= 1
             if S[1] < 0:
                 S[0] = pc
                 return EXHAUSTED
-            if E[0] > MOST_EVENTS:
-                S[1] += 1
-                S[0] = pc - 1
-                return FULL
             pc = t - 1
         elif op == 1:
             pc = t - 1
@@ -223,6 +222,9 @@ def run(code: Any, room: Any, M: Any) -> int:
             if I[a] == 0:
                 pc = t - 1
         elif op == 4:
+            if E[0] > MOST_EVENTS:
+                S[0] = pc - 1
+                return FULL
             S[1] -= 1
             if S[1] < 0:
                 S[0] = pc

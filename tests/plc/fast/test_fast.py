@@ -18,6 +18,9 @@ from plcgen.plc import engines, operators
 from plcgen.plc.core import Compute, Function, Program, Register, Return
 from plcgen.plc.machine import Machine
 from plcgen.plc.operators import Operator
+from plcgen.plc.scl.dialects import CLASSIC
+from plcgen.plc.scl.lowering import lower as lower_scl
+from plcgen.plc.scl.parser import parse as parse_scl
 from plcgen.plc.source import SourceText, Span
 from plcgen.plc.stl import s7_operators, smart_operators
 from plcgen.plc.stl.s7_lowering import lower
@@ -192,3 +195,46 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(engines.VARIABLE, "fast")
     with pytest.raises(PlcgenError, match='the fast engine needs numba; install plcgen with the extra "fast"'):
         engines.chosen()
+
+
+# ---------------------------------------------------------------------------------------------------------- room
+
+MANY_EVENTS = """FUNCTION FC1 : INT
+VAR_INPUT
+    a : INT;
+END_VAR
+BEGIN
+    FC1 := a + 32767;
+END_FUNCTION
+FUNCTION FC2 : INT
+VAR_TEMP
+    n : DINT;
+    x : INT;
+END_VAR
+BEGIN
+    FOR n := 1 TO 40000 DO
+        x := FC1(a := 1);
+    END_FOR;
+    FC2 := x;
+END_FUNCTION
+"""
+
+
+def test_more_events_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are told in between, in their order, and nothing of the budget is spent on it."""
+    linked = lower_scl(list(parse_scl(SourceText("many.scl", MANY_EVENTS), CLASSIC)), CLASSIC)
+    machines = pair(monkeypatch, linked, 0, 80_001)
+    results = [machine.call("FC2", arguments=[]) for machine in machines.values()]
+    assert results == [-32768, -32768]
+    assert machines["plain"].faults == machines["fast"].faults
+    assert len(machines["fast"].faults) == 40_000
+
+
+def test_a_budget_that_is_spent_stops_both_at_the_same_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    linked = lower_scl(list(parse_scl(SourceText("many.scl", MANY_EVENTS), CLASSIC)), CLASSIC)
+    told = []
+    for machine in pair(monkeypatch, linked, 0, 79_999).values():
+        with pytest.raises(Fault) as raised:
+            machine.call("FC2", arguments=[])
+        told.append((str(raised.value), len(machine.faults)))
+    assert told[0] == told[1]
