@@ -41,17 +41,14 @@ BLOCK_HEAD = 36
 
 @dataclass(frozen=True)
 class Cpu:
-    """Its prices in ns, what the operating system adds as a factor, and what the start of OB35 takes, in s."""
+    """Its prices in ns, and what the operating system adds as a factor."""
 
     name: str
     prices: Mapping[str, float]
     system: float
-    interrupt: float
 
 
 CPUS: tuple[Cpu, ...] = tuple(
-    Cpu(name, {kind: times[column] for kind, (_size, times) in CLASSES.items()}, system, interrupt)
-    for column, (name, system, interrupt) in enumerate(
-        [("CPU 314", 1.10, 150e-6), ("CPU 315-2DP", 1.10, 150e-6), ("CPU 317", 1.07, 90e-6)]
-    )
+    Cpu(name, {kind: times[column] for kind, (_size, times) in CLASSES.items()}, system)
+    for column, (name, system) in enumerate([("CPU 314", 1.10), ("CPU 315-2DP", 1.10), ("CPU 317", 1.07)])
 )
