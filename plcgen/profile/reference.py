@@ -99,15 +99,18 @@ class Reference:
 
     def time_at(self, travel: Samples) -> Samples:
         """Instants at which the travel is reached; travel outside 0 .. end gives the start or the end."""
+        index = np.clip(np.searchsorted(self._starts[:, 1], travel, side="right") - 1, 0, len(self.phases) - 1)
+        start_time, start_travel, velocity, acceleration = self._starts[index].T
+        jerk = np.array([phase.jerk for phase in self.phases])[index]
         low = np.zeros_like(travel, dtype=np.float64)
-        high = np.full_like(low, self.duration)
+        high = self._starts[index + 1, 0] - start_time
         # 64 halvings reach the resolution of float64 for any duration.
         for _ in range(64):
-            middle = (low + high) / 2
-            before = self.at_time(middle).travel < travel
-            low = np.where(before, middle, low)
-            high = np.where(before, high, middle)
-        return (low + high) / 2
+            t = (low + high) / 2
+            before = start_travel + t * (velocity + t * (acceleration / 2 + t * jerk / 6)) < travel
+            low = np.where(before, t, low)
+            high = np.where(before, high, t)
+        return np.asarray(start_time + (low + high) / 2)
 
     def at_travel(self, travel: Samples) -> Motion:
         """Motion at places of the trip."""
