@@ -38,6 +38,11 @@ class Motion(NamedTuple):
     leg: NDArray[np.int64]
 
 
+def _way(t: Samples, velocity: Samples, acceleration: Samples, jerk: Samples) -> Samples:
+    """Travel in the time t of a phase that starts with a velocity and an acceleration."""
+    return t * (velocity + t * (acceleration / 2 + t * jerk / 6))
+
+
 @dataclass(frozen=True)
 class Reference:
     """Phases in order, from travel 0 at an initial velocity and acceleration; nothing jumps but the jerk."""
@@ -63,6 +68,14 @@ class Reference:
             )
         return np.array(states)
 
+    @cached_property
+    def _jerks(self) -> Samples:
+        return np.array([phase.jerk for phase in self.phases])
+
+    def _phase_of(self, starts: Samples, values: Samples) -> NDArray[np.int64]:
+        """Indices of the phases in which values lie, given where each phase starts."""
+        return np.clip(np.searchsorted(starts, values, side="right") - 1, 0, len(self.phases) - 1)
+
     @property
     def corner_times(self) -> Samples:
         """Instants at which a phase begins, and the end."""
@@ -84,13 +97,13 @@ class Reference:
     def at_time(self, time: Samples) -> Motion:
         """Motion at instants in s; at rest before the start and after the end."""
         clipped = np.clip(time, 0.0, self.duration)
-        index = np.clip(np.searchsorted(self._starts[:, 0], clipped, side="right") - 1, 0, len(self.phases) - 1)
+        index = self._phase_of(self._starts[:, 0], clipped)
         start_time, travel, velocity, acceleration = self._starts[index].T
-        jerk = np.array([phase.jerk for phase in self.phases])[index]
+        jerk = self._jerks[index]
         leg = np.array([phase.leg for phase in self.phases])[index]
         t = clipped - start_time
         return Motion(
-            travel + t * (velocity + t * (acceleration / 2 + t * jerk / 6)),
+            travel + _way(t, velocity, acceleration, jerk),
             velocity + t * (acceleration + t * jerk / 2),
             acceleration + t * jerk,
             jerk,
@@ -99,15 +112,15 @@ class Reference:
 
     def time_at(self, travel: Samples) -> Samples:
         """Instants at which the travel is reached; travel outside 0 .. end gives the start or the end."""
-        index = np.clip(np.searchsorted(self._starts[:, 1], travel, side="right") - 1, 0, len(self.phases) - 1)
+        index = self._phase_of(self._starts[:, 1], travel)
         start_time, start_travel, velocity, acceleration = self._starts[index].T
-        jerk = np.array([phase.jerk for phase in self.phases])[index]
+        jerk = self._jerks[index]
         low = np.zeros_like(travel, dtype=np.float64)
         high = self._starts[index + 1, 0] - start_time
         # 64 halvings reach the resolution of float64 for any duration.
         for _ in range(64):
             t = (low + high) / 2
-            before = start_travel + t * (velocity + t * (acceleration / 2 + t * jerk / 6)) < travel
+            before = start_travel + _way(t, velocity, acceleration, jerk) < travel
             low = np.where(before, t, low)
             high = np.where(before, high, t)
         return np.asarray(start_time + (low + high) / 2)
