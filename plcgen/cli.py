@@ -316,6 +316,7 @@ def sweep(job: Path, moves: int, seed: int) -> None:
 @ENGINE
 def check(folder: Path, update: bool) -> None:
     """Compare golden cases, DIR/<case>/job.toml, with what comes out today. Default DIR: golden.
+    One case alone: the folder of its job.toml.
 
     \b
     Example:

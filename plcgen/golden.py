@@ -57,9 +57,11 @@ def check_golden(folder: Path, update: bool, done: Callable[[str], None]) -> lis
 
 
 def find_cases(folder: Path) -> list[Path]:
-    """Folders with a job below `folder`."""
+    """Folders with a job below `folder`, or itself where it is a case."""
     if not folder.is_dir():
         raise PlcgenError(f"{folder}: no such folder; plcgen check takes the folder of the golden cases")
+    if (folder / JOB).is_file():
+        return [folder]
     cases = sorted(job.parent for job in folder.glob(f"*/{JOB}"))
     if not cases:
         raise PlcgenError(f"{folder}: no case in it; a case is a folder with a {JOB}")

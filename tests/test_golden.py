@@ -174,6 +174,13 @@ def test_cases_in_processes(tmp_path: Path) -> None:
     assert [(report.case, bool(report.error)) for report in reports] == [("a", True), ("b", True)]
 
 
+def test_a_case_is_its_only_one(tmp_path: Path) -> None:
+    (tmp_path / "job.toml").write_text("name = 1")
+    (tmp_path / "inner").mkdir()
+    (tmp_path / "inner" / "job.toml").write_text("name = 1")
+    assert golden.find_cases(tmp_path) == [tmp_path]
+
+
 def test_folder_without_cases(tmp_path: Path) -> None:
     with pytest.raises(PlcgenError) as caught:
         golden.find_cases(tmp_path)

@@ -17,21 +17,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from math import factorial, pi
+from math import pi
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from plcgen.profile.cosine_genetic import genetic_factors
+from plcgen.profile.exactly import Exact, nearest, series, solve, value
 
 Samples = NDArray[np.float64]
 
 FITS = ("minimax", "least-squares", "genetic", "taylor")
 DERIVATIVES = 4
+GRID = 4000  # intervals
 _X2 = Polynomial([0.0, 0.0, 1.0])
 
 
@@ -39,8 +41,8 @@ _X2 = Polynomial([0.0, 0.0, 1.0])
 class Law:
     """A function that is fitted by x^n with n in `powers`, and `fixed` before them; signs alternate.
 
-    `exact(x, order)` is the function or its derivative by x. `plain` is a polynomial with the right end, `free` are
-    two that do not move it.
+    `exact(x, order)` is the function or its derivative by x, as the library rounds it; `series` tells it to 40 digits.
+    `plain` is a polynomial with the right end, `free` are two that do not move it.
     """
 
     letter: str
@@ -50,6 +52,7 @@ class Law:
     first_sign: float
     powers: tuple[int, ...]
     exact: Callable[[Samples, int], Samples]
+    series: Exact
     plain: Polynomial
     free: tuple[Polynomial, Polynomial]
 
@@ -58,15 +61,18 @@ class Law:
         terms = np.zeros(self.powers[-1] + 1)
         terms[0] = self.fixed
         for index, (power, coefficient) in enumerate(zip(self.powers, coefficients, strict=True)):
-            terms[power] = self.first_sign * (-1.0) ** index * coefficient * self.span**power
+            terms[power] = self.first_sign * (-1.0) ** index * coefficient * self._scale(power)
         return Polynomial(terms)
 
     def coefficients(self, polynomial: Polynomial) -> tuple[float, ...]:
         """As the claim writes them, of a polynomial in x."""
         return tuple(
-            float(self.first_sign * (-1.0) ** index * polynomial.coef[power] / self.span**power)
+            float(self.first_sign * (-1.0) ** index * polynomial.coef[power] / self._scale(power))
             for index, power in enumerate(self.powers)
         )
+
+    def _scale(self, power: int) -> float:
+        return float(Fraction(self.span) ** power)
 
 
 def _cosine(x: Samples, order: int) -> Samples:
@@ -80,7 +86,18 @@ def _sine(x: Samples, order: int) -> Samples:
 
 
 _ENDS = (1 - _X2) ** 2
-HALF_SINE = Law("f", "t", pi, 1.0, -1.0, (2, 4, 6, 8), _cosine, 1 - 4 * _X2 + 2 * _X2**2, (_X2 * _ENDS, _X2**2 * _ENDS))
+HALF_SINE = Law(
+    "f",
+    "t",
+    pi,
+    1.0,
+    -1.0,
+    (2, 4, 6, 8),
+    _cosine,
+    series(0, 1),
+    1 - 4 * _X2 + 2 * _X2**2,
+    (_X2 * _ENDS, _X2**2 * _ENDS),
+)
 CENTRED = Law(
     "s",
     "y",
@@ -89,6 +106,7 @@ CENTRED = Law(
     1.0,
     (1, 3, 5, 7),
     _sine,
+    series(1, Fraction(1, 2)),
     Polynomial([0.0, 1.5, 0.0, -0.5]),
     (Polynomial([0.0, 1.0]) * _ENDS, Polynomial([0.0, 0.0, 0.0, 1.0]) * _ENDS),
 )
@@ -122,19 +140,21 @@ def fit(name: str, law: Law, seed: int = 1) -> Fit:
 
 def repaired(law: Law, raw: Polynomial) -> Polynomial:
     """The polynomial that ends on its mark and is nearest in the mean of the squares."""
-    return _nearest(law, raw)
+    u, v = nearest([_exact(free) for free in law.free], _exact(raw - law.plain))
+    return _ended(law, float(u), float(v))
 
 
 def error(law: Law, polynomial: Polynomial, order: int) -> float:
     """Largest error of the law or of a derivative by t or y, over the whole interval."""
-    x = np.linspace(0.0, 1.0, 4001)
+    x = np.linspace(0.0, 1.0, GRID + 1)
     derivative = polynomial.deriv(order) if order else polynomial
     return float(np.abs(derivative(x) - law.exact(x, order)).max()) / law.span**order
 
 
 def extremes(polynomial: Polynomial) -> tuple[float, float]:
     """Lowest and highest value for x in 0 .. 1."""
-    roots = polynomial.deriv().roots()
+    # To 12 digits: the last ones are of the solver on the machine at hand, and move no value.
+    roots = np.round(polynomial.deriv().roots(), 12)
     inner = roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0.0) & (roots.real < 1.0)]
     values = polynomial(np.array([0.0, 1.0, *inner]))
     return float(values.min()), float(values.max())
@@ -159,8 +179,7 @@ def is_monotone(law: Law, polynomial: Polynomial) -> bool:
 
 def _taylor(law: Law, _seed: int) -> Polynomial:
     """Claim 2: of cos t, and of sin(pi y/2)."""
-    quarter = 1.0 if law is HALF_SINE else pi / 2
-    return law.polynomial(np.array([quarter**power / factorial(power) for power in law.powers]))
+    return Polynomial([float(term) for term in law.series[: law.powers[-1] + 1]])
 
 
 def _genetic(law: Law, seed: int) -> Polynomial:
@@ -170,32 +189,34 @@ def _genetic(law: Law, seed: int) -> Polynomial:
 
 
 def _least_squares(law: Law, _seed: int) -> Polynomial:
-    """All four coefficients free: the mean of the squares of g is least. Gauss's quadrature is exact enough."""
-    x, weights = _quadrature()
-    roots = np.sqrt(weights)
-    columns = np.stack([x**power for power in law.powers], axis=1)
-    wanted = law.exact(x, 0) - law.fixed
-    terms = np.linalg.lstsq(columns * roots[:, None], wanted * roots, rcond=None)[0]
+    """All four coefficients free: the mean of the squares of g is least."""
+    monomials = [[Fraction(power == wanted) for power in range(law.powers[-1] + 1)] for wanted in law.powers]
     polynomial = np.zeros(law.powers[-1] + 1)
     polynomial[0] = law.fixed
-    polynomial[list(law.powers)] = terms
+    polynomial[list(law.powers)] = [float(factor) for factor in nearest(monomials, [Fraction(0), *law.series[1:]])]
     return Polynomial(polynomial)
 
 
 def _minimax(law: Law, _seed: int) -> Polynomial:
     """The largest error is least among those that end on their mark: Remez's exchange with three points."""
-    x = np.linspace(0.0, 1.0, 4001)[1:-1]
+    x = np.linspace(0.0, 1.0, GRID + 1)[1:-1]
     base, first, second = law.plain(x) - law.exact(x, 0), law.free[0](x), law.free[1](x)
     points = np.array([len(x) // 5, len(x) // 2, 4 * len(x) // 5])
     for _ in range(50):
-        system = np.stack([first[points], second[points], [1.0, -1.0, 1.0]], axis=1)
-        u, v, _level = np.linalg.solve(system, -base[points])
-        g = base + u * first + v * second
-        found = _alternation(g)
+        u, v = _level(law, [Fraction(int(point) + 1, GRID) for point in points])
+        found = _alternation(base + u * first + v * second)
         if len(found) != 3 or np.array_equal(found, points):
             break
         points = found
     return _ended(law, u, v)
+
+
+def _level(law: Law, points: list[Fraction]) -> tuple[float, float]:
+    """Factors on the free polynomials with which the law errs equally at three points, with changing sign."""
+    plain, first, second = map(_exact, (law.plain, *law.free))
+    rows = [[value(first, x), value(second, x), Fraction((-1) ** index)] for index, x in enumerate(points)]
+    u, v, _error = solve(rows, [value(law.series, x) - value(plain, x) for x in points])
+    return float(u), float(v)
 
 
 def _alternation(g: Samples) -> NDArray[np.int64]:
@@ -205,23 +226,14 @@ def _alternation(g: Samples) -> NDArray[np.int64]:
     return np.array([low + int(np.argmax(np.abs(g[low:high]))) for low, high in edges])
 
 
-def _nearest(law: Law, wanted: Polynomial) -> Polynomial:
-    x, weights = _quadrature()
-    roots = np.sqrt(weights)
-    columns = np.stack([free(x) for free in law.free], axis=1)
-    u, v = np.linalg.lstsq(columns * roots[:, None], (wanted - law.plain)(x) * roots, rcond=None)[0]
-    return _ended(law, u, v)
+def _exact(polynomial: Polynomial) -> tuple[Fraction, ...]:
+    return tuple(map(Fraction, polynomial.coef.tolist()))
 
 
 def _ended(law: Law, first: float, second: float) -> Polynomial:
     """The polynomials that end on their mark."""
     total: Polynomial = law.plain + first * law.free[0] + second * law.free[1]
     return total
-
-
-def _quadrature() -> tuple[Samples, Samples]:
-    nodes, weights = leggauss(24)
-    return (nodes + 1) / 2, weights / 2
 
 
 _RAW: dict[str, Callable[[Law, int], Polynomial]] = {

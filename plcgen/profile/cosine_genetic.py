@@ -14,10 +14,13 @@ from __future__ import annotations
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cache
+from math import factorial
 from random import Random
 
 import numpy as np
 from numpy.typing import NDArray
+
+from plcgen.profile.exactly import DIGITS, PI, cosine
 
 Samples = NDArray[np.float64]
 
@@ -26,7 +29,6 @@ INTERVALS = 64
 BOX = 0.5  # genes begin in 1 - BOX .. 1 + BOX
 BLEND = 0.5  # alpha: how far beyond its parents a child may lie, in their distance
 MUTATION, SHRINKING = 0.25, 0.97  # probability for each gene; factor on the box of mutations in each generation
-PI = Decimal("3.14159265358979323846264338327950288419716939937511")
 # By law: the first power, the sign of its term, and the constant before it. cos t on 0 .. pi, sin(pi y/2) on 0 .. 1.
 _POWERS = {"f": (2, 4, 6, 8), "s": (1, 3, 5, 7)}
 
@@ -97,13 +99,13 @@ def _term(letter: str, power: int, order: int, x: Fraction) -> float:
         return 0.0
     left = power - order
     with localcontext() as context:
-        context.prec = 40
+        context.prec = DIGITS
         # (angle)^power/power!, where the angle is pi x or pi x/2, derived by t = pi x or by y = x
         at = Decimal(x.numerator) / x.denominator * PI
         scale = Decimal(1)
         if letter == "s":
             at, scale = at / 2, (PI / 2) ** order
-        value = scale / _factorial(left)
+        value = scale / factorial(left)
         for _ in range(left):
             value *= at
         return float(value if _sign(power) > 0 else -value)
@@ -118,24 +120,6 @@ def _wanted(letter: str, order: int, x: Fraction) -> float:
     """Derivative of cos(pi x) by pi x, or of sin(pi x/2) by x; each quarter turn more is one order."""
     turns = x + Fraction(order, 2) if letter == "f" else (x + order - 1) / 2
     with localcontext() as context:
-        context.prec = 40
+        context.prec = DIGITS
         scale = (PI / 2) ** order if letter == "s" else Decimal(1)
-        return float(scale * _cosine_of(turns))
-
-
-def _cosine_of(turns: Fraction) -> Decimal:
-    """cos(pi turns), by its series after folding into the first quarter."""
-    folded = abs(turns) % 2
-    folded = min(folded, 2 - folded)
-    if folded > Fraction(1, 2):
-        return -_cosine_of(1 - folded)
-    square = (Decimal(folded.numerator) / folded.denominator * PI) ** 2
-    term = total = Decimal(1)
-    for n in range(1, 20):
-        term = -term * square / ((2 * n - 1) * (2 * n))
-        total += term
-    return total
-
-
-def _factorial(n: int) -> int:
-    return n * _factorial(n - 1) if n else 1
+        return float(scale * cosine(turns))

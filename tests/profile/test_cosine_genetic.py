@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
-from fractions import Fraction
-from math import cos, factorial, pi, sin, ulp
+from math import cos, factorial, pi, sin
 from random import Random
 
 import numpy as np
 import pytest
 
 from plcgen.profile import cosine_genetic
-from plcgen.profile.cosine_genetic import BOX, GENERATIONS, INTERVALS, PI, POPULATION, fitness, genetic_factors
+from plcgen.profile.cosine_genetic import BOX, GENERATIONS, INTERVALS, POPULATION, fitness, genetic_factors
 
 LETTERS = pytest.mark.parametrize("letter", ["f", "s"])
 POWERS = {"f": (2, 4, 6, 8), "s": (1, 3, 5, 7)}
@@ -116,38 +114,6 @@ def test_table_of_the_law_is_that_of_the_platform(letter: str, order: int) -> No
             unit = tuple(1.0 if other == index else 0.0 for other in range(4))
             term = value_of(letter, unit, order, i / INTERVALS) - fixed
             assert terms[index][i] == pytest.approx(term, rel=1e-14, abs=4e-16), (i, index)
-
-
-def test_decimal_cosine_is_that_of_the_platform() -> None:
-    """Within a unit in the last place of the larger of cos and the angle's own rounding."""
-    for i in range(-4 * INTERVALS, 4 * INTERVALS + 1):
-        decimal = float(cosine_genetic._cosine_of(Fraction(i, INTERVALS)))
-        angle = pi * i / INTERVALS
-        assert abs(decimal - cos(angle)) <= ulp(decimal) + abs(sin(angle)) * ulp(angle), i
-
-
-@pytest.mark.parametrize(
-    ("turns", "digits"),
-    [
-        (Fraction(0), "1"),
-        (Fraction(1, 6), "0.8660254037844386467637231707529"),  # sqrt(3)/2
-        (Fraction(1, 4), "0.7071067811865475244008443621048"),  # sqrt(1/2)
-        (Fraction(1, 3), "0.5"),
-        (Fraction(2, 5), "0.3090169943749474241022934171828"),  # (sqrt(5) - 1)/4
-        (Fraction(1, 2), "0"),
-        (Fraction(2, 3), "-0.5"),
-        (Fraction(1), "-1"),
-        (Fraction(-1, 4), "0.7071067811865475244008443621048"),
-        (Fraction(7, 4), "0.7071067811865475244008443621048"),
-    ],
-)
-def test_decimal_cosine_by_roots(turns: Fraction, digits: str) -> None:
-    assert abs(cosine_genetic._cosine_of(turns) - Decimal(digits)) < Decimal("1e-26")
-
-
-def test_pi() -> None:
-    assert float(PI) == pi
-    assert str(PI).startswith("3.14159265358979323846264338327950288419716939937510"[:50])
 
 
 def test_as_many_evaluations_as_the_comment_says() -> None:
