@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 
@@ -15,9 +16,10 @@ from plcgen.check.hoist_model import (
     STANDSTILL,
     START_RAMP,
     STOP_RAMP,
+    STOPPING,
     HoistModel,
 )
-from plcgen.check.rig import PERFECT, Clock, Encoder, Rig
+from plcgen.check.rig import PERFECT, Clock, Encoder, Goal, Rig
 from plcgen.plc.core import Program
 from plcgen.trajectory import Trajectory
 
@@ -103,13 +105,12 @@ class Run:
         return self
 
 
-def at_rest(rig: Rig) -> bool:
-    return rig.get("phase") == STANDSTILL
+RESTING = Goal(frozenset({STANDSTILL}))
 
 
-def reached(phase: int, rig: Rig) -> bool:
-    """For `partial`: a phase or a later one."""
-    return rig.get("phase") >= phase
+def reached(phase: int) -> Goal:
+    """A phase or a later one."""
+    return Goal(frozenset(range(phase, STOPPING + 1)))
 
 
 def full_trip(
@@ -134,7 +135,7 @@ def full_trip(
     rig.scan()
     rig.set(directionUp=not up)
     run = Run(name, encoder, clock, nominal=stops is None and encoder == PERFECT and distance == upper - lower)
-    run.complete = rig.run(bench.longest_trip, at_rest)
+    run.complete = rig.run(bench.longest_trip, RESTING)
     run.trips.append((1, rig.scans, up))
     rig.set(directionUp=up)
     rig.run(3)
@@ -151,12 +152,12 @@ def interrupted_trip(bench: Bench, name: str, up: bool, places: Sequence[float])
     run = Run(name, rig.encoder, clock)
     for number, place in enumerate(places):
         _leg_of(bench, run, rig, up, place)
-        run.complete &= not at_rest(rig)
+        run.complete &= not RESTING.is_met(rig)
         _interrupt(bench, run, rig, up, by_stop=number % 2 == 0)
         if _arrived(bench, rig):
             return run.finish(rig, rig.plant.travel)
     _leg_of(bench, run, rig, up, 2 * travel)
-    run.complete &= at_rest(rig)
+    run.complete &= RESTING.is_met(rig)
     rig.run(3)
     return run.finish(rig, travel if up else 0.0)
 
@@ -171,11 +172,8 @@ def _leg_of(bench: Bench, run: Run, rig: Rig, up: bool, place: float) -> None:
     travel = bench.model.limits.travel
     rig.set(enable=True)
     first = rig.scans
-
-    def passed(rig: Rig) -> bool:
-        gone = rig.plant.travel if up else travel - rig.plant.travel
-        return at_rest(rig) or (gone >= place and rig.get("phase") <= CREEP_IN)
-
+    not_yet = (-inf, place) if up else (travel - place, inf)
+    passed = Goal(RESTING.phases, frozenset(range(CREEP_IN + 1)), not_yet)
     run.complete &= rig.run(bench.longest_trip, passed)
     run.trips.append((first, rig.scans, up))
 
@@ -183,12 +181,12 @@ def _leg_of(bench: Bench, run: Run, rig: Rig, up: bool, place: float) -> None:
 def _interrupt(bench: Bench, run: Run, rig: Rig, up: bool, by_stop: bool) -> None:
     first = rig.scans
     rig.set(**({"stop": True} if by_stop else {"enable": False}))
-    run.complete &= rig.run(bench.longest_stop, at_rest)
+    run.complete &= rig.run(bench.longest_stop, RESTING)
     run.stops.append((first, rig.scans, up))
     # Releasing the stop must not start anything: that takes a fresh edge of enable.
     rig.set(stop=False)
     rig.run(3)
-    run.complete &= at_rest(rig)
+    run.complete &= RESTING.is_met(rig)
     rig.set(enable=False)
     rig.scan()
 
@@ -205,7 +203,7 @@ def turning_trip(bench: Bench, name: str) -> Run:
     rig.set(directionUp=False)
     rig.set(enable=True)
     first = rig.scans
-    run.complete &= rig.run(bench.longest_trip, at_rest)
+    run.complete &= rig.run(bench.longest_trip, RESTING)
     run.trips.append((first, rig.scans, False))
     rig.run(3)
     return run.finish(rig, 0.0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 from math import inf, nan
 
 import numpy as np
@@ -24,7 +23,7 @@ from plcgen.check.hoist_answers import (
     standing,
     wrong,
 )
-from plcgen.check.hoist_bench import Bench, at_rest, reached
+from plcgen.check.hoist_bench import RESTING, Bench, reached
 from plcgen.check.hoist_commands import commands, restarts
 from plcgen.check.hoist_expectation import LAW_ERROR, Segment, stop_from, travel_resolution
 from plcgen.check.hoist_model import CREEP_IN, CREEP_OUT, FULL_SPEED, STANDSTILL, STOPPING, HoistModel
@@ -223,7 +222,7 @@ def _moving(bench: Bench) -> Iterator[Check]:
         rig.set(directionUp=True)
         rig.scan()
         rig.set(enable=True)
-        if not rig.run(bench.longest_trip, partial(reached, phase)):
+        if not rig.run(bench.longest_trip, reached(phase)):
             answers.append(f"phase {phase} is never reached")
             continue
         moment = rig.snapshot()
@@ -250,7 +249,7 @@ def _emergency_stop(bench: Bench, rig: Rig, case: Case) -> tuple[str, tuple[floa
     answer = differs(rig, f"{case.name} on the way", status=case.status or 0, **moving)
     if case.status in (ERROR_TRAVEL, ERROR_STOPS):
         answer = answer or differs(rig, f"{case.name} on the way", envelopeVelocity=kept, distanceToGo=0.0)
-    stopped = rig.run(bench.longest_stop, at_rest)
+    stopped = rig.run(bench.longest_stop, RESTING)
     rig.run(2)
     answer = answer or ("" if stopped else f"{case.name} on the way: never comes to rest")
     segment = Segment(rig.trace(), 0, len(rig.trace()), True)

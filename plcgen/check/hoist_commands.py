@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
-from math import nan
+from math import inf, nan
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from plcgen.check.hoist_answers import (
     press_reset,
     standing,
 )
-from plcgen.check.hoist_bench import Bench, at_rest, reached
+from plcgen.check.hoist_bench import RESTING, Bench, reached
 from plcgen.check.hoist_expectation import LAW_ERROR, Segment, peak_acceleration, stop_from, travel_resolution
 from plcgen.check.hoist_model import (
     ACCELERATE,
@@ -36,7 +35,7 @@ from plcgen.check.hoist_model import (
     STOPPING,
     HoistModel,
 )
-from plcgen.check.rig import Rig
+from plcgen.check.rig import Goal, Rig
 
 SAFE = {"velocitySetpoint": 0.0, "limitedSetpoint": 0.0, "acceleration": 0.0, "phase": STANDSTILL, "busy": 0}
 
@@ -94,7 +93,7 @@ def _overspeed(bench: Bench) -> Iterator[str]:
     rig.scan()
     press_reset(rig)
     yield differs(rig, "reset on the way", overspeedTrip=1, phase=STOPPING)
-    rig.run(bench.longest_stop, at_rest)
+    rig.run(bench.longest_stop, RESTING)
     yield differs(rig, "at rest after overspeed", overspeedTrip=1, status=TRIPPED, phase=STANDSTILL)
     press_enable(rig)
     yield differs(rig, "start in spite of the trip", phase=STANDSTILL, status=TRIPPED)
@@ -112,7 +111,7 @@ def _stop_in_the_stop_ramp(bench: Bench) -> Iterator[str]:
     rig.set(stop=True)
     rig.scan()
     yield differs(rig, "stop in the stop ramp", phase=STOP_RAMP, status=IN_PROGRESS)
-    rig.run(bench.longest_stop, at_rest)
+    rig.run(bench.longest_stop, RESTING)
     yield differs(rig, "stop in the stop ramp, at rest", inPosition=1, status=AT_THE_STOP)
 
 
@@ -126,7 +125,9 @@ def _late_stop_ramp(bench: Bench) -> Iterator[str]:
     gap = 0.1 * creep * period
     brink = model.limits.travel - trip.stop_travel - gap
     rig = _started(bench, distance)
-    rig.run(bench.longest_trip, lambda rig: rig.get("actualTravel") > brink - 2 * creep * period)
+    rig.run(
+        bench.longest_trip, Goal(phases_outside=reached(STANDSTILL).phases, between=(-inf, brink - 2 * creep * period))
+    )
     rig.force(actualTravel=brink)
     rig.scan()
     creeping = rig.get("phase") in (CREEP_OUT, CREEP_IN)
@@ -152,7 +153,7 @@ def _clamp(bench: Bench) -> Iterator[str]:
     rig.set(stop=True)
     place, end = rig.plant.travel, bench.model.limits.travel
     for _ in range(bench.longest_stop):
-        if at_rest(rig):
+        if RESTING.is_met(rig):
             return
         place = min(end, place + 1.9 * rig.get("envelopeVelocity") * bench.model.sample_period)
         rig.force(actualTravel=place)
@@ -172,7 +173,7 @@ def _started(bench: Bench, distance: float | None = None) -> Rig:
 
 
 def _run_to(bench: Bench, rig: Rig, phase: int) -> None:
-    rig.run(bench.longest_trip, partial(reached, phase))
+    rig.run(bench.longest_trip, reached(phase))
 
 
 # -------------------------------------------------------------------------------------------------------- restarts
@@ -205,7 +206,7 @@ def _take_over(bench: Bench) -> Iterator[str]:
                 rig.set(restart=False)
                 first = rig.scans - 1
                 yield differs(rig, "restart on the way", phase=STOPPING, status=COMING_TO_REST)
-                rig.run(bench.longest_stop, at_rest)
+                rig.run(bench.longest_stop, RESTING)
                 rig.run(2)
                 yield differs(rig, "rest after a restart", status=AT_REST, **SAFE)
                 yield _bumpless(model, Segment(rig.trace(), first, rig.scans, sign > 0), speed)
@@ -253,7 +254,7 @@ def _in_mid_trip(bench: Bench) -> Iterator[str]:
     rig.scan()
     rig.set(restart=False)
     yield differs(rig, "restart while it accelerates", phase=STOPPING, status=COMING_TO_REST)
-    rig.run(bench.longest_stop, at_rest)
+    rig.run(bench.longest_stop, RESTING)
     rig.run(2)
     yield _bumpless(model, Segment(rig.trace(), first, rig.scans, True), speed)
     rig.restore(moment)

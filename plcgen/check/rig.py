@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
-from math import floor
+from math import floor, inf
 from random import Random
 
 import numpy as np
 
 from plcgen.plc.core import Program
+from plcgen.plc.engines import ClosedLoop
 from plcgen.plc.machine import Machine, Variable
 from plcgen.plc.types import BYTE_BITS, Elementary, Family, Structure
 from plcgen.trajectory import Trajectory
@@ -52,6 +53,28 @@ class Plant:
     def move_to(self, time: float) -> None:
         self.travel += self.velocity * (time - self.time)
         self.time = time
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a run is for: any of the first phases; any of the others, with the plant outside `between`."""
+
+    phases: frozenset[int] = frozenset()
+    phases_outside: frozenset[int] = frozenset()
+    between: tuple[float, float] = (-inf, inf)
+
+    def is_met(self, rig: Rig) -> bool:
+        low, high = self.between
+        phase = rig.phase
+        return phase in self.phases or (phase in self.phases_outside and not low < rig.plant.travel < high)
+
+    @property
+    def masks(self) -> tuple[int, int]:
+        """Phases as bits."""
+        return sum(1 << phase for phase in self.phases), sum(1 << phase for phase in self.phases_outside)
+
+
+NEVER = Goal()
 
 
 @dataclass(frozen=True)
@@ -108,13 +131,13 @@ class Instance:
         """Every elementary variable of the interface after each scan."""
         structure = self.machine.program.functions[self.block].instance
         assert structure is not None
-        return Trajectory(_decode(b"".join(self._images), len(self._images), structure))
+        return Trajectory(_decode(b"".join(self._images), len(self._memory), structure))
 
 
 class Rig(Instance):
     """An instance with its plant."""
 
-    SETPOINT, TRAVEL, VELOCITY = "limitedSetpoint", "actualTravel", "actualVelocity"
+    TRAVEL, VELOCITY, SETPOINT, PHASE = "actualTravel", "actualVelocity", "limitedSetpoint", "phase"
 
     def __init__(
         self,
@@ -136,6 +159,9 @@ class Rig(Instance):
         self._travel, self._velocity, self._setpoint = (
             self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
         )
+        self._late: list[float] = []
+        """How late in s the next calls come, as far as that was drawn."""
+        self._loop = self._closed_loop()
 
     def force(self, **measurements: float) -> None:
         """Replace what encoder or drive report until `release`."""
@@ -144,31 +170,69 @@ class Rig(Instance):
     def release(self) -> None:
         self.forced.clear()
 
+    @property
+    def phase(self) -> int:
+        return int(self.get(self.PHASE))
+
     def scan(self) -> None:
         """One call of the cyclic interrupt."""
-        jitter = self._random.uniform(-self.clock.jitter, self.clock.jitter) if self.clock.jitter else 0.0
-        self.plant.move_to((self.scans + jitter) * self.clock.period)
+        self.plant.move_to(self._times(1)[0])
+        del self._late[:1]
         self._travel.set(self.forced.get(self.TRAVEL, self._measured()))
         self._velocity.set(self.forced.get(self.VELOCITY, self.plant.velocity))
         super().scan()
         self.plant.velocity = self._setpoint.get()
         self._places.append((self.plant.time, self.plant.travel))
 
+    def _times(self, scans: int) -> list[float]:
+        """When the next calls come."""
+        jitter, late = self.clock.jitter, self._late
+        while jitter and len(late) < scans:
+            late.append(self._random.uniform(-jitter, jitter))
+        first, period = self.scans, self.clock.period
+        return [(first + scan + late[scan] if jitter else first + scan) * period for scan in range(scans)]
+
     def _measured(self) -> float:
         reading = self.encoder.read(self.plant.travel)
         if not self.encoder.delay:
             return reading
         history = self.plant.history
+        history.extend([reading] * (self.encoder.delay - len(history)))
         history.append(reading)
-        return history.popleft() if len(history) > self.encoder.delay else history[0]
+        return history.popleft()
 
-    def run(self, scans: int, until: Callable[[Rig], bool] = lambda _rig: False) -> bool:
-        """Scan until the condition holds after a scan; False when `scans` were not enough."""
-        for _ in range(scans):
-            self.scan()
-            if until(self):
+    def run(self, scans: int, until: Goal | None = None) -> bool:
+        """Scan until the goal is met after a scan; False when `scans` were not enough."""
+        end = self.scans + scans
+        while self.scans < end:
+            if self._loop is None or self.forced or len(self.plant.history) < self.encoder.delay:
+                self.scan()
+            else:
+                self._ride(self._loop, end - self.scans, until or NEVER)
+            if until is not None and until.is_met(self):
                 return True
         return False
+
+    def _closed_loop(self) -> ClosedLoop | None:
+        return self.machine.closed_loop(
+            self.block, self.instance, (self.TRAVEL, self.VELOCITY, self.SETPOINT, self.PHASE)
+        )
+
+    def _ride(self, loop: ClosedLoop, most: int, until: Goal) -> None:
+        """Some scans at once, just as `scan` makes them: up to the goal at the most."""
+        plant = self.plant
+        times = np.array(self._times(min(most, loop.LONGEST)))
+        drive = np.array([plant.travel, plant.velocity, plant.time, self.encoder.quantum, *until.between])
+        late = np.array(plant.history, dtype=np.float64)
+        rows = loop.run(times, drive, late, *until.masks)
+        self.machine.scan = self.scans + rows - 1
+        self.machine.settle(loop)
+        plant.travel, plant.velocity, plant.time = drive[:3].tolist()
+        plant.history = deque(late.tolist())
+        self._places.extend(map(tuple, loop.places[:rows].tolist()))
+        self._images.append(loop.images[:rows].tobytes())
+        del self._late[:rows]
+        self.scans += rows
 
     def snapshot(self) -> Snapshot:
         return Snapshot(bytes(self._memory), deepcopy(self.plant), self.scans)
@@ -188,9 +252,9 @@ class Rig(Instance):
         return Trajectory({"time": np.array(times), "plantTravel": np.array(travels), **super().trace().columns})
 
 
-def _decode(data: bytes, rows: int, structure: Structure) -> dict[str, np.ndarray]:
-    """Columns of the elementary members of equal memory images that follow each other."""
-    size = len(data) // rows
+def _decode(data: bytes, size: int, structure: Structure) -> dict[str, np.ndarray]:
+    """Columns of the elementary members of memory images of one size that follow each other."""
+    rows = len(data) // size
     columns = {}
     for member in structure.fields:
         if not isinstance(member.type, Elementary):

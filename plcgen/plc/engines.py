@@ -3,18 +3,33 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib.util import find_spec
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Engine, Site
 
+if TYPE_CHECKING:
+    import numpy as np
+
 VARIABLE, PLAIN, FAST = "PLCGEN_ENGINE", "plain", "fast"
 ENGINES = (PLAIN, FAST)
 Memory = dict[Area | str, Bytes]
 Run = Callable[..., Any]
+
+
+class ClosedLoop(Protocol):
+    """See `fast.closed_loop`."""
+
+    LONGEST: int
+    places: np.ndarray
+    images: np.ndarray
+
+    def run(self, times: np.ndarray, drive: np.ndarray, late: np.ndarray, phases: int, passing: int) -> int: ...
+
+    def settle(self) -> None: ...
 
 
 class Runner(Protocol):
@@ -26,6 +41,9 @@ class Runner(Protocol):
 
     def adopt(self, data: bytes) -> Bytes:
         """Memory for another instance."""
+
+    def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
+        """A block with its drive; None where there is no quicker way than scan by scan."""
 
 
 def chosen() -> str:

@@ -47,7 +47,7 @@ class Moves(Limited):
         """u(x); its integral over the move is (f(0) - f(pi))/2 = 1."""
         return -self.fit.repaired.deriv() / 2
 
-    @property
+    @cached_property
     def coefficients(self) -> tuple[float, ...]:
         """C1..C4, whose signs alternate."""
         return tuple(float((-1.0) ** index * self.speed.coef[power]) for index, power in enumerate((1, 3, 5, 7)))
@@ -59,27 +59,27 @@ class Moves(Limited):
         unlike = float((self.speed(x) / self.speed(1 - x)).max())
         return peak(self.speed.deriv()) * max(1.0, unlike)
 
-    @property
+    @cached_property
     def time_by_velocity(self) -> float:
         """Tm/D that keeps the speed."""
         return peak(self.speed) / self.max_velocity
 
-    @property
+    @cached_property
     def square_by_acceleration(self) -> float:
         """Tm^2/D that keeps the acceleration."""
         return self.slope / self.max_acceleration
 
-    @property
+    @cached_property
     def cube_by_jump(self) -> float:
         """Tm^2 T/D that keeps the jerk at both ends, where the average spreads the jump over n T."""
         return self.slope / (self.filter_length * self.jerk)
 
-    @property
+    @cached_property
     def cube_by_jerk(self) -> float:
         """Tm^3/D that keeps the jerk in between."""
         return peak(self.speed.deriv(2)) / self.jerk
 
-    @property
+    @cached_property
     def sum_terms(self) -> tuple[float, ...]:
         """E1..E3: u summed over k/N is N + E1/N + E2/N^3 + E3/N^5, by Euler and Maclaurin; u'''''' is linear."""
         ends = [float(self.speed.deriv(order)(1.0) - self.speed.deriv(order)(0.0)) for order in (1, 3, 5)]

@@ -45,14 +45,11 @@ class Envelope:
     def velocity(self, travelled: Samples, to_go: Samples) -> Samples:
         """v_trip at a distance from the stop behind and from the stop ahead, arrays of one shape."""
         guard = self.limits.envelope
-        nominal = np.array([self._nominal(x, d) for x, d in zip(travelled, to_go, strict=True)])
+        nominal = np.minimum(
+            self.acceleration.velocities(travelled - self.acceleration_begin),
+            self.deceleration.velocities(to_go - self.deceleration_end),
+        )
         tracking = np.maximum(guard.tracking_factor * nominal, nominal + guard.tracking_margin)
         left = np.maximum(to_go, 0.0)
         safe = np.sqrt(self.velocity_squared_at_end + 2 * guard.brake_deceleration * left) - self.reaction_velocity
         return np.minimum(np.minimum(self.overspeed_velocity, tracking), safe)
-
-    def _nominal(self, travelled: float, to_go: float) -> float:
-        return min(
-            self.acceleration.velocity(travelled - self.acceleration_begin),
-            self.deceleration.velocity(to_go - self.deceleration_end),
-        )

@@ -18,7 +18,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import inf, sqrt
 
+import numpy as np
+from numpy.typing import NDArray
+
 from plcgen.profile.cubic import depressed_cubic_roots
+
+Samples = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -55,36 +60,36 @@ class Transition:
         # At the edge of short the difference is rounding alone, and may be negative.
         return 0.0 if self.is_short else max(0.0, self.velocity_change / self.acceleration - self.jerk_time)
 
-    @property
+    @cached_property
     def duration(self) -> float:
         return 2 * self.jerk_time + self.middle_time
 
-    @property
+    @cached_property
     def travel(self) -> float:
         """L = (lo + hi)/2 (2 t1 + t2): the speed is point-symmetric about its mean."""
         return (self.slow_velocity + self.fast_velocity) / 2 * self.duration
 
-    @property
+    @cached_property
     def slow_corner_travel(self) -> float:
         """Delta S_1 = lo t1 + m t1^3/6, end of the slow part, from (5)."""
         return (self.slow_velocity + self.jerk * self.jerk_time**2 / 6) * self.jerk_time
 
-    @property
+    @cached_property
     def slow_corner_velocity(self) -> float:
         """v_1 = lo + m t1^2/2, from (4)."""
         return self.slow_velocity + self.jerk * self.jerk_time**2 / 2
 
-    @property
+    @cached_property
     def fast_corner_travel(self) -> float:
         """x where the fast part begins: L - (hi t1 - m t1^3/6), from (12)."""
         return self.travel - self.fast_part_travel
 
-    @property
+    @cached_property
     def fast_part_travel(self) -> float:
         """Delta S_3 = hi t1 - m t1^3/6."""
         return (self.fast_velocity - self.jerk * self.jerk_time**2 / 6) * self.jerk_time
 
-    @property
+    @cached_property
     def fast_corner_velocity(self) -> float:
         """v_2 = hi - m t1^2/2, from (11)."""
         return self.fast_velocity - self.jerk * self.jerk_time**2 / 2
@@ -105,14 +110,28 @@ class Transition:
             return self._fast_part(self.travel - travel)
         return sqrt(self.slow_corner_velocity**2 + 2 * self.peak_acceleration * (travel - self.slow_corner_travel))
 
+    def velocities(self, travel: Samples) -> Samples:
+        """v(x) of an array, to the last bit."""
+        result = np.where(travel <= 0, self.slow_velocity, self.fast_velocity)
+        inside = (travel > 0) & (travel < self.travel)
+        middle = inside & (travel >= self.slow_corner_travel) & (travel <= self.fast_corner_travel)
+        way = travel[middle] - self.slow_corner_travel
+        result[middle] = np.sqrt(self.slow_corner_velocity**2 + 2 * self.peak_acceleration * way)
+        ends = inside & ~middle
+        result[ends] = [self.velocity(x) for x in travel[ends].tolist()]
+        return result
+
     def acceleration_at(self, velocity: float) -> float:
         """a(v): sqrt(2 m (v - lo)) in the slow part, sqrt(2 m (hi - v)) in the fast part, a_p between."""
         corner_distance = max(0.0, min(velocity - self.slow_velocity, self.fast_velocity - velocity))
         return min(self.peak_acceleration, sqrt(2 * self.jerk * corner_distance))
 
     def _slow_part(self, x: float) -> float:
-        """(6): t^3 + 6 lo/m t - 6 x/m = 0 has one real root; (4): v = lo + m t^2/2."""
-        (t,) = depressed_cubic_roots(6 * self.slow_velocity / self.jerk, -6 * x / self.jerk)
+        """(6): t^3 + 6 lo/m t - 6 x/m = 0 has one real root; (4): v = lo + m t^2/2.
+
+        From rest, where 6 x/m is less than any float, 0 is a triple root.
+        """
+        *_, t = depressed_cubic_roots(6 * self.slow_velocity / self.jerk, -6 * x / self.jerk)
         return self.slow_velocity + self.jerk * t * t / 2
 
     def _fast_part(self, y: float) -> float:

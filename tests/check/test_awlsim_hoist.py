@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import re
 import struct
-from collections.abc import Mapping
-from functools import cache, partial
+from collections.abc import Callable, Mapping
+from functools import cache
 from types import MappingProxyType
 
 import numpy as np
 import pytest
 
-from plcgen.check.hoist_bench import at_rest, full_trip, interrupted_trip, reached, stop_places, turning_trip
+from plcgen.check.hoist_bench import RESTING, full_trip, interrupted_trip, reached, stop_places, turning_trip
 from plcgen.check.hoist_model import ACCELERATE, CREEP_IN, DECELERATE, FULL_SPEED, START_RAMP, STOP_RAMP
 from plcgen.check.rig import Clock, Encoder, Rig, Snapshot
 from plcgen.job import parse_job
@@ -105,7 +105,7 @@ def moments() -> tuple[Rig, dict[int, Snapshot]]:
     rig = started()
     found = {}
     for phase in range(START_RAMP, STOP_RAMP + 1):
-        assert rig.run(600, partial(reached, phase))
+        assert rig.run(600, reached(phase))
         rig.scan()
         found[phase] = rig.snapshot()
     return rig, found
@@ -184,7 +184,7 @@ def test_faulty_input_at_full_speed(faulty: dict[str, float]) -> None:
     rig.set(**before, reset=True)
     rig.run(2)
     rig.set(enable=False, reset=False)
-    assert rig.run(400, at_rest)
+    assert rig.run(400, RESTING)
     assert rig.get("error") or rig.get("overspeedTrip")
     rig.set(reset=True)
     rig.run(2)
@@ -216,7 +216,7 @@ def test_restart(velocity: float) -> None:
     rig.set(restart=False)
     rig.run(30)
     rig.set(enable=False, reset=False)
-    rig.run(300, at_rest)
+    rig.run(300, RESTING)
     rig.set(enable=True, directionUp=False)
     rig.run(20)
 
@@ -230,18 +230,26 @@ def test_restart_of_a_moving_hoist(phase: int) -> None:
     rig.run(20)
 
 
+def scan_until(rig: Rig, condition: Callable[[], bool]) -> None:
+    for _ in range(600):
+        rig.scan()
+        if condition():
+            return
+    pytest.fail("600 scans were not enough")
+
+
 def test_stop_while_braking_hard() -> None:
     """A stop request at the highest deceleration: the first phase of the ramp is over before it begins."""
     rig = at(DECELERATE)
-    rig.run(600, lambda rig: rig.get("acceleration") <= -1.19)
+    scan_until(rig, lambda: rig.get("acceleration") <= -1.19)
     rig.set(stop=True)
-    assert rig.run(300, at_rest)
+    assert rig.run(300, RESTING)
 
 
 def test_late_stop_ramp() -> None:
     """The travel leaps towards the stop, by less than a jump: the arrears of the stop ramp are limited."""
     rig = at(CREEP_IN)
-    assert rig.run(600, lambda rig: rig.get("distanceToGo") < rig.get("statStopTravel") + 0.004)
+    scan_until(rig, lambda: rig.get("distanceToGo") < rig.get("statStopTravel") + 0.004)
     rig.plant.travel += 0.008
     rig.run(60)
     assert not rig.get("error")

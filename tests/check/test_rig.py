@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from math import inf
+from random import Random
+
 import numpy as np
 import pytest
 
-from plcgen.check.rig import PERFECT, Clock, Encoder, Rig
+from plcgen.check.rig import PERFECT, Clock, Encoder, Goal, Rig
+from plcgen.errors import Fault
 from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
@@ -23,10 +27,12 @@ VAR_OUTPUT
     limitedSetpoint : REAL;
     moving : BOOL;
     scans : INT;
+    phase : INT;
 END_VAR
 BEGIN
     moving := enable;
     scans := scans + 1;
+    phase := scans / 5;
     limitedSetpoint := 0.0;
     IF enable THEN
         limitedSetpoint := 2.0;
@@ -38,8 +44,8 @@ END_DATA_BLOCK
 """
 
 
-def follower(clock: Clock, encoder: Encoder = PERFECT) -> Rig:
-    program = lower(parse(SourceText("follower.scl", FOLLOWER), CLASSIC), CLASSIC)
+def follower(clock: Clock, encoder: Encoder = PERFECT, text: str = FOLLOWER) -> Rig:
+    program = lower(parse(SourceText("follower.scl", text), CLASSIC), CLASSIC)
     return Rig(program, "FB1", "DB1", 10.0, clock, encoder)
 
 
@@ -97,11 +103,79 @@ def test_forced_measurement_and_release() -> None:
     assert list(rig.trace()["actualTravel"]) == [-3.0, 10.0]
 
 
-def test_run_tells_whether_the_condition_came() -> None:
+def test_run_tells_whether_the_goal_was_met() -> None:
     rig = follower(Clock(0.5))
-    assert rig.run(5, lambda rig: rig.get("scans") == 3)
-    assert rig.scans == 3
-    assert not rig.run(2, lambda rig: rig.get("scans") == 99)
+    assert rig.run(20, Goal(frozenset({2})))
+    assert rig.scans == 10
+    assert not rig.run(7, Goal(frozenset({1, 4})))
+    assert rig.scans == 17
+    rig.set(enable=True)
+    assert rig.run(20, Goal(phases_outside=frozenset({3, 4}), between=(-inf, 12.5)))
+    assert list(rig.trace()["plantTravel"])[-4:] == [10.0, 11.0, 12.0, 13.0]
+
+
+# Overflows in scans 8 and 9 (INT), divides by 0 in scan 11, and its index is outside from scan 14 on.
+TROUBLED = FOLLOWER.replace(
+    "    moving := enable;",
+    """
+    IF scans = 7 OR scans = 8 THEN
+        limitedSetpoint := 3.0E38 * (scans + 1.0E10);
+    END_IF;
+    IF scans = 10 THEN
+        limitedSetpoint := 1.0 / (limitedSetpoint - limitedSetpoint);
+    END_IF;
+    table[scans] := 1.0;
+    moving := enable;
+""",
+).replace("    phase : INT;\n", "    phase : INT;\n    table : ARRAY[0..12] OF REAL;\n")
+
+
+@pytest.mark.parametrize("engine", ["plain", "fast"])
+def test_events_and_faults_on_the_way_have_their_scan(engine: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    if engine == "fast":
+        pytest.importorskip("numba", reason="the fast engine needs Numba")
+    monkeypatch.setenv("PLCGEN_ENGINE", engine)
+    rig = follower(Clock(0.5), text=TROUBLED)
+    with pytest.raises(Fault) as caught:
+        rig.run(40)
+    assert str(caught.value).splitlines()[0].endswith("array index 13 outside 0 .. 12 (scan 13)")
+    assert [(event.kind, event.scan) for event in rig.machine.faults] == [
+        ("overflow", 7),
+        ("overflow", 8),
+        ("division by zero", 10),
+    ]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the clock, the encoder, the goal, and the order of single scans and runs, on the compiled engine."""
+    pytest.importorskip("numba", reason="the fast engine needs Numba")
+    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+    random = Random(seed)
+    clock = Clock(random.choice([0.5, 0.013]), random.choice([0.0, 0.2]), seed)
+    encoder = Encoder(random.choice([0.0, 0.001, 0.75]), random.randrange(4))
+    rigs = [follower(clock, encoder) for _ in range(2)]
+    rigs[1]._loop = None
+    assert rigs[0]._loop is not None
+    for _ in range(random.randrange(2, 12)):
+        enable, scans = random.random() < 0.7, random.randrange(1, 40)
+        phases = frozenset(random.sample(range(60), random.randrange(3)))
+        outside = frozenset(random.sample(range(60), 30)), (random.uniform(0.0, 10.0), random.uniform(10.0, 40.0))
+        goal = random.choice([None, Goal(phases), Goal(phases, *outside)])
+        measured, forced, single = random.uniform(0.0, 20.0), random.random() < 0.2, random.random() < 0.3
+        answers = []
+        for rig in rigs:
+            rig.set(enable=enable)
+            if forced:
+                rig.force(actualTravel=measured)
+            if single:
+                rig.scan()
+            answers.append((rig.run(scans, goal), rig.scans, rig.plant))
+            rig.release()
+        assert answers[0] == answers[1], seed
+    one, other = (rig.trace() for rig in rigs)
+    assert one.columns.keys() == other.columns.keys()
+    assert all(one[name].tobytes() == other[name].tobytes() for name in one.columns), seed
 
 
 def test_unknown_input_is_named() -> None:

@@ -151,6 +151,15 @@ def test_from_rest_speed_grows_with_the_two_thirds_power_of_travel(jerk: float) 
         assert isclose(transition.velocity(x), jerk / 2 * (6 * x / jerk) ** (2 / 3), rel_tol=1e-14)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(3))
+def test_array_of_velocities_is_one_by_one_to_the_last_bit(kind: str, seed: int) -> None:
+    transition = random_transition(np.random.default_rng(seed), kind)
+    corners = [transition.slow_corner_travel, transition.fast_corner_travel, transition.travel, 0.0, -0.0]
+    x = np.concatenate([np.linspace(-0.1, 1.1, 401) * transition.travel, corners, np.nextafter(corners, 1e9)])
+    assert transition.velocities(x).tolist() == [transition.velocity(travel) for travel in x.tolist()], transition
+
+
 def test_known_values() -> None:
     transition = Transition(0.5, 12.0, 0.75, 0.5)
     assert (transition.jerk_time, transition.is_short) == (1.5, False)

@@ -94,6 +94,7 @@ class FastEngine:
         self._floats = self._integers.view(np.float64)
         self._floats[FACTOR] = 1.0 + function_error
         self._events, self._state = self._room[vm.EVENTS : vm.SLOTS], self._room[: vm.CELL]
+        self.parts = self._code, self._room, self._memory
         self._names = library(lambda kind, site: note(kind, self._sites[site]), self._out_of_bounds, function_error) | {
             "stop": self._stop,
             **services,
@@ -103,7 +104,7 @@ class FastEngine:
     def bound(self, name: str, base: int) -> Callable[..., Any]:
         """See `Engine.bound`; `base` is the first byte of the instance."""
         function, entry, integers = self._program.functions[name], self._entries[name], self._integers
-        start, simple = entry.start, not (function.frame_given or entry.parameters or entry.results)
+        start, simple = entry.start, self.entry(name) is not None
 
         def run(*arguments: Any) -> Any:
             integers[BASE] = base
@@ -121,13 +122,23 @@ class FastEngine:
 
         return run
 
+    def entry(self, name: str) -> int | None:
+        """Where a block begins that takes and returns nothing but its instance; None for another."""
+        function, entry = self._program.functions[name], self._entries[name]
+        return None if function.frame_given or entry.parameters or entry.results else entry.start
+
     def _give_frame(self, entry: Entry, frame: bytes) -> None:
         self._memory[entry.frame : entry.frame + len(frame)] = np.frombuffer(frame, np.uint8)
 
     def _run(self, start: int) -> None:
-        state, events = self._state, self._events
+        state = self._state
         state[START], state[BUDGET], state[CALLS] = start, self.budget[0], 0
-        while (ended := vm.run(self._code, self._room, self._memory)) != vm.DONE:
+        self.go_on(vm.run(self._code, self._room, self._memory))
+
+    def go_on(self, ended: int) -> None:
+        """Do what the virtual machine `ended` for, and let it run on, until it is done."""
+        state, events = self._state, self._events
+        while ended != vm.DONE:
             if events[0]:
                 self._tell()
             if ended == vm.EXHAUSTED:
@@ -135,6 +146,7 @@ class FastEngine:
             if ended == vm.REQUEST:
                 self._serve(int(state[START]))
             state[START] += 1
+            ended = vm.run(self._code, self._room, self._memory)
         if events[0]:
             self._tell()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Site
+from plcgen.plc.fast.closed_loop import PHASE_AT, SETPOINT_AT, TRAVEL_AT, VELOCITY_AT, ClosedLoop
 from plcgen.plc.fast.engine import FastEngine
 
 ROOM = 1 << 17
@@ -47,6 +48,14 @@ class FastRunner:
     def bound(self, name: str, instance: Bytes | None) -> Callable[..., Any]:
         """See `Engine.bound`."""
         return self.engine.bound(name, 0 if instance is None else self._first_byte(instance))
+
+    def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
+        """Scans of a block on its instance without Python; `places` are bytes of travel, velocity, setpoint, phase."""
+        entry = self.engine.entry(name)
+        fields = dict(zip((TRAVEL_AT, VELOCITY_AT, SETPOINT_AT, PHASE_AT), places, strict=True))
+        if entry is None:
+            return None
+        return ClosedLoop(self.engine, entry, self._first_byte(instance), len(instance), fields)
 
     def _first_byte(self, view: Bytes) -> int:
         address: int = np.frombuffer(view, np.uint8).__array_interface__["data"][0]
