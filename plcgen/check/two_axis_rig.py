@@ -102,8 +102,9 @@ class Table:
         longest = (2 * move.samples + 20) * self.model.sample_period
         end = first_tick + round((longest if until is None else until) * SECOND)
         told_early = False
-        while self.cpu.time_us < end and (self.get("busy") or until is not None):
-            told_early |= bool(self.get("busy") and (self.get("done") or self.get("stopped")))
+        busy, done, stopped = (self.variable(flag).get for flag in ("busy", "done", "stopped"))
+        while self.cpu.time_us < end and (busy() or until is not None):
+            told_early |= bool(busy() and (done() or stopped()))
             self.cpu.scan()
         for _ in range(SETTLED):
             self.cpu.scan()

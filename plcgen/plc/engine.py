@@ -58,6 +58,10 @@ class Site(NamedTuple):
         return self.function.source.location(self.span)
 
 
+COUNTERS = 64
+"""Of what programs are counted by, see `Engine.take_counts`."""
+
+
 class Engine:
     """Functions of a program over the given memory. `note(kind, site)` is told of arithmetic events.
 
@@ -75,6 +79,7 @@ class Engine:
         services: Mapping[str, Callable[..., Any]] = NO_SERVICES,
     ) -> None:
         self.budget = [0]
+        self._counts = [0] * COUNTERS
         self._note = note
         self._sites: list[Site] = []
         self._sources: dict[str, str] = {}
@@ -94,7 +99,7 @@ class Engine:
     ) -> dict[str, Any]:
         namespace = library(lambda kind, site: self._note(kind, self._sites[site]), self._out_of_bounds, function_error)
         namespace.update(load_bit=_load_bit, store_bit=_store_bit, budget=self.budget, exhausted=self._exhausted)
-        namespace["stop"] = self._stop
+        namespace["stop"], namespace["count"] = self._stop, self._count
         for row in ELEMENTARY.values():
             namespace.update({f"load_{row}": row.codec.unpack_from, f"store_{row}": row.codec.pack_into})
         namespace.update({areas[area]: data for area, data in memory.items()})
@@ -112,6 +117,15 @@ class Engine:
     def adopt(self, data: bytes) -> Bytes:
         """Memory for another instance."""
         return bytearray(data)
+
+    def take_counts(self) -> list[int]:
+        """How often operators said `count(number)` since the last time."""
+        taken, self._counts[:] = list(self._counts), [0] * COUNTERS
+        return taken
+
+    def _count(self, number: int) -> bool:
+        self._counts[number % COUNTERS] += 1
+        return False
 
     def closed_loop(self, _name: str, _instance: Bytes, _places: Sequence[int]) -> None:
         """Here Python is in between anyway."""

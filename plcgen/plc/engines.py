@@ -42,6 +42,9 @@ class Runner(Protocol):
     def adopt(self, data: bytes) -> Bytes:
         """Memory for another instance."""
 
+    def take_counts(self) -> list[int]:
+        """See `Engine.take_counts`."""
+
     def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
         """A block with its drive; None where there is no quicker way than scan by scan."""
 

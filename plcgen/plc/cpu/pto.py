@@ -119,6 +119,7 @@ class Channel:
     ) -> None:
         self.output = output
         self.port = PORTS[output]
+        self._status, self._segment = self.port.status, self.port.segment
         self.segments: list[Segment] = []
         self.lost = 0
         self._special, self._table, self._report = special, table, report
@@ -128,7 +129,8 @@ class Channel:
         self._trains = 0
         self._first = self._current = 0
         """Places of the running train's first segment, and of the one that was last seen to run."""
-        self._running = False
+        self.busy = False
+        """Whether pulses leave."""
         self._multi = False
         self._stop_at: float | None = None
         """When a segment that is too short ends the train."""
@@ -136,13 +138,9 @@ class Channel:
         """Frequency and count of the load that waits behind the running one."""
         self._flags = 0
         self._loaded = (1, 1)
+        self._look()
 
     # ---------------------------------------------------------------------------------------------------- the clock
-
-    @property
-    def busy(self) -> bool:
-        """Whether pulses leave."""
-        return self._running
 
     @property
     def has_direction(self) -> bool:
@@ -157,7 +155,7 @@ class Channel:
     @property
     def next_change(self) -> float:
         """When the running train ends by itself."""
-        return self._end if self._running else math.inf
+        return self._end if self.busy else math.inf
 
     @property
     def _end(self) -> float:
@@ -166,39 +164,49 @@ class Channel:
     def advance(self, now: int) -> bool:
         """The time is `now`; whether a train is over since."""
         self._now = now
-        if not self._running or self._end > now:
+        if now < self._boundary:
             return False
+        is_over = self._end <= now
+        if is_over:
+            self._finish()
+        self._look()
+        return is_over
+
+    def _finish(self) -> None:
+        """The train is over."""
         end = self._end
-        self._running = False
+        self.busy = False
         if self._stop_at is not None:
             self._flags |= OVERRUN
             self._stop_at = None
         if self._waiting is not None:
             load, self._waiting = self._waiting, None
             self._begin(end, [(load[0], load[0], load[1])], multi=False)
-        return True
 
-    def refresh(self, now: int) -> None:
-        """Status and segment number in special memory, before any program text runs."""
-        self._now = now
-        if self._running:
-            self.advance(now)
-        port, special = self.port, self._special
-        special[port.status] = special[port.status] & 0x70 | self._flags | (0 if self._running else IDLE)
-        special[port.segment] = self._running_number() if self._running else 0
-        self._flags = 0
-
-    def _running_number(self) -> int:
-        """Of the segment that runs, from 1 on; time only goes forward."""
+    def _look(self) -> None:
+        """What special memory says from now up to the next boundary between segments."""
+        if not self.busy:
+            self._boundary, self._number, self._idle = math.inf, 0, IDLE
+            return
         last = len(self.segments) - 1
         while self._current < last and self.segments[self._current].end <= self._now:
             self._current += 1
-        return min(self._current, last) - self._first + 1
+        current = min(self._current, last)
+        self._number, self._idle = current - self._first + 1, 0
+        self._boundary = self._end if current == last else min(self._end, self.segments[current].end)
+
+    def refresh(self, now: int) -> None:
+        """Status and segment number in special memory, before any program text runs."""
+        self.advance(now)
+        special, status = self._special, self._status
+        special[status] = special[status] & 0x70 | self._flags | self._idle
+        special[self._segment] = self._number
+        self._flags = 0
 
     def watch_direction(self, now: int) -> None:
         """Note a direction output that changed under a running train."""
         self.advance(now)
-        if self._running and self._direction is not None:
+        if self.busy and self._direction is not None:
             bit = self._direction()
             if bit != self._seen_direction:
                 self._complain("direction output changed while a train runs")
@@ -219,6 +227,7 @@ class Channel:
             self._start_table()
         else:
             self._load(control)
+        self._look()
         self.refresh(now)
         return None
 
@@ -245,7 +254,7 @@ class Channel:
 
     def _stop(self, flag: int) -> None:
         """What is left of the running train is lost."""
-        if not self._running:
+        if not self.busy:
             return
         left = sum(segment.pulses for segment in self.segments[self._first :])
         left += self._waiting[1] if self._waiting else 0
@@ -253,12 +262,12 @@ class Channel:
         kept = [replace(s, truncated_at=float(self._now)) if s.end > self._now else s for s in kept]
         self.segments[self._first :] = kept
         self.lost += left - sum(segment.sent for segment in kept)
-        self._running, self._waiting, self._stop_at = False, None, None
+        self.busy, self._waiting, self._stop_at = False, None, None
         self._flags |= flag
 
     def _start_table(self) -> None:
         entries = list(self._entries())
-        if self._running:
+        if self.busy:
             self._overrun("PLS while a train runs: the rest of it is lost")
         if not entries:
             self._complain("profile table with 0 segments: no pulses")
@@ -281,9 +290,9 @@ class Channel:
         if control & UPDATE_COUNT:
             count = _clamped(unpack_from(">I", self._special, self.port.count)[0], 2**31 - 1)
         self._loaded = frequency, count
-        if self._running and self._multi:
+        if self.busy and self._multi:
             self._overrun("PLS of a single segment while a table runs: the rest of it is lost")
-        if not self._running:
+        if not self.busy:
             self._clear()
             self._begin(float(self._now), [(frequency, frequency, count)], multi=False)
         elif self._waiting is None:
@@ -304,7 +313,7 @@ class Channel:
 
     def _begin(self, start: float, entries: list[tuple[int, int, int]], multi: bool) -> None:
         self._first = self._current = len(self.segments)
-        self._multi, self._running = multi, True
+        self._multi, self.busy = multi, True
         bit = self._seen_direction = self._direction() if self._direction is not None else None
         for first, last, pulses in entries:
             duration = 2 * SECOND * pulses / (first + last)
@@ -332,7 +341,7 @@ class Channel:
 
     def forget(self) -> None:
         """Forget the segments that were sent. Only while no train runs."""
-        assert not self._running
+        assert not self.busy
         self.segments.clear()
 
     def position_at(self, times_us: NDArray[Any]) -> NDArray[np.int64]:

@@ -10,15 +10,16 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import mul
 from typing import Any, ClassVar
 
 from plcgen.errors import PlcgenError
-from plcgen.plc.core import Area, Cell, Program
+from plcgen.plc.core import Area, Cell, Compute, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
-from plcgen.plc.stl.smart_costs import COSTS
+from plcgen.plc.stl.smart_costs import COSTS, SPEND
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, SM, STARTS, V, cell_at, default_type, pointed
 from plcgen.plc.stl.smart_symbols import SYSTEM_SYMBOLS
 from plcgen.plc.stl.syntax import BlockKind
@@ -132,7 +133,11 @@ class Smart:
         self.results: Any = None
         self.run_times: dict[str, float] = {}
         self._costs = [costs[name] for name in COSTS]
-        self._spent = 0.0
+        self._is_timed = any(
+            isinstance(item, Compute) and item.operator is SPEND
+            for function in program.functions.values()
+            for item in function.body
+        )
         self._cycle = cycle
         self.scan_us = scan_us
         self.time_us = 0
@@ -153,7 +158,8 @@ class Smart:
         given = directions or {}
         self.channels: Mapping[str, Channel] = {name: self._channel(name, given.get(name)) for name in PORTS}
         self._channels = tuple(self.channels.values())
-        self._by_event = {PORTS[name].event: channel for name, channel in self.channels.items()}
+        self._directed = tuple(channel for channel in self._channels if channel.has_direction)
+        self._events = tuple((PORTS[name].event, channel) for name, channel in self.channels.items())
         self._refresh()
 
     def _services(self) -> Mapping[str, Callable[..., Any]]:
@@ -166,7 +172,6 @@ class Smart:
             "disi": lambda: self._enable(False),
             "stop": self._stop,
             "wdr": lambda: None,
-            "spend": self._spend,
             "clock": lambda: self.time_us // MILLISECOND,
         }
 
@@ -230,15 +235,19 @@ class Smart:
         if not self.running:
             return None
         self._refresh()
-        self._spent = 0.0
         try:
             return self._processor.call(name, arguments=arguments)
         except _StopMode:
             self.running = False
             return None
         finally:
-            self.run_times[name] = max(self._spent, self.run_times.get(name, 0.0))
+            if self._is_timed:
+                self._clock_run(name)
             self._watch_directions()
+
+    def _clock_run(self, name: str) -> None:
+        spent = sum(map(mul, self._processor.engine.take_counts(), self._costs))
+        self.run_times[name] = max(spent, self.run_times.get(name, 0.0))
 
     def _refresh(self) -> None:
         self._special[0] |= ALWAYS_ON
@@ -247,15 +256,12 @@ class Smart:
             channel.refresh(self.time_us)
 
     def _watch_directions(self) -> None:
-        for channel in self._channels:
-            if channel.busy and channel.has_direction:
+        for channel in self._directed:
+            if channel.busy:
                 channel.watch_direction(self.time_us)
 
     def _stop(self) -> None:
         raise _StopMode
-
-    def _spend(self, number: int) -> None:
-        self._spent += self._costs[number]
 
     # ----------------------------------------------------------------------------------------------------- interrupts
 
@@ -275,7 +281,7 @@ class Smart:
         moment = _NEVER
         for ticks in self._ticks.values():
             moment = min(moment, ticks.due)
-        for event, channel in self._by_event.items():
+        for event, channel in self._events:
             if channel.busy and (channel.has_load_waiting or event in self._attached):
                 moment = min(moment, math.ceil(channel.next_change))
         if self._queue and self._enabled:
@@ -289,8 +295,8 @@ class Smart:
 
     def _notice(self) -> None:
         """Requests of the hardware at this moment."""
-        for event, channel in self._by_event.items():
-            if channel.advance(self.time_us):
+        for event, channel in self._events:
+            if channel.busy and channel.advance(self.time_us):
                 self.raise_event(event)
         for event, ticks in self._ticks.items():
             if ticks.due <= self.time_us:

@@ -11,15 +11,14 @@ import numpy as np
 from plcgen.errors import Fault
 from plcgen.plc.arithmetic import library
 from plcgen.plc.core import Area, Function, Program
-from plcgen.plc.engine import NO_SERVICES, Site
+from plcgen.plc.engine import COUNTERS, NO_SERVICES, Site
 from plcgen.plc.fast import vm
 from plcgen.plc.fast.bodies import KINDS
-from plcgen.plc.fast.encode import BASE, FACTOR, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
+from plcgen.plc.fast.encode import FACTOR, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
+from plcgen.plc.fast.vm import QUIET, START, enter
 from plcgen.plc.operators import Operator
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
-
-START, BUDGET, CALLS = range(3)
 
 
 @dataclass(frozen=True)
@@ -94,6 +93,7 @@ class FastEngine:
         self._floats = self._integers.view(np.float64)
         self._floats[FACTOR] = 1.0 + function_error
         self._events, self._state = self._room[vm.EVENTS : vm.SLOTS], self._room[: vm.CELL]
+        self._counts = self._room[vm.COUNTS : vm.COUNTS + COUNTERS]
         self.parts = self._code, self._room, self._memory
         self._names = library(lambda kind, site: note(kind, self._sites[site]), self._out_of_bounds, function_error) | {
             "stop": self._stop,
@@ -103,24 +103,34 @@ class FastEngine:
 
     def bound(self, name: str, base: int) -> Callable[..., Any]:
         """See `Engine.bound`; `base` is the first byte of the instance."""
-        function, entry, integers = self._program.functions[name], self._entries[name], self._integers
-        start, simple = entry.start, self.entry(name) is not None
+        function, entry = self._program.functions[name], self._entries[name]
+        start, parts, budget, go_on = entry.start, self.parts, self.budget, self.go_on
 
-        def run(*arguments: Any) -> Any:
-            integers[BASE] = base
-            if simple:
-                self._run(start)
-                return None
+        def run() -> None:
+            ended = enter(*parts, start, base, budget[0])
+            if ended != QUIET:
+                go_on(ended)
+
+        if self.entry(name) is not None:
+            return run
+
+        def handed_over(*arguments: Any) -> Any:
             given = list(arguments)
             if function.frame_given:
                 self._give_frame(entry, given.pop(0))
             for value, place, arrival in zip(given, entry.parameters, entry.arrivals, strict=True):
                 self._write(arrival, place.type, value)
-            self._run(start)
+            run()
             results = tuple(self._read(s, p.type) for s, p in zip(entry.results, function.results, strict=True))
             return results[0] if len(results) == 1 else results or None
 
-        return run
+        return handed_over
+
+    def take_counts(self) -> list[int]:
+        """See `engine.Engine.take_counts`."""
+        taken: list[int] = self._counts.tolist()
+        self._counts.fill(0)
+        return taken
 
     def entry(self, name: str) -> int | None:
         """Where a block begins that takes and returns nothing but its instance; None for another."""
@@ -129,11 +139,6 @@ class FastEngine:
 
     def _give_frame(self, entry: Entry, frame: bytes) -> None:
         self._memory[entry.frame : entry.frame + len(frame)] = np.frombuffer(frame, np.uint8)
-
-    def _run(self, start: int) -> None:
-        state = self._state
-        state[START], state[BUDGET], state[CALLS] = start, self.budget[0], 0
-        self.go_on(vm.run(self._code, self._room, self._memory))
 
     def go_on(self, ended: int) -> None:
         """Do what the virtual machine `ended` for, and let it run on, until it is done."""

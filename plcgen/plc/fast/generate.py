@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
+from hashlib import sha256
 from itertools import count
 from pathlib import Path
 
 from plcgen.plc import operators
 from plcgen.plc.fast.bodies import Body, body_of, lines
 from plcgen.plc.operators import Operator
-from plcgen.plc.stl import s7_operators, smart_boxes, smart_operators
+from plcgen.plc.stl import s7_operators, smart_boxes, smart_costs, smart_operators
 from plcgen.plc.types import BYTE, DINT, INT, REAL, WORD
 
 FILE = Path(__file__).with_name("vm.py")
+HELPERS, CLOSED_LOOP = FILE.with_name("helpers.py"), FILE.with_name("closed_loop.py")
 COMMON = frozenset({"BOOL", "BYTE", "WORD", "DWORD", "CHAR", "INT", "DINT", "REAL", "TIME"})
 """Types whose rows have bodies; the others are rare."""
 FIRST_BODY = 32
 HEAD = '''"""The virtual machine. Written by `generate.py`: change that, not this.
 
 `code` holds an instruction a row: number, target, four operands, six numbers and the site. All but memory, M, lies in
-one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), the stack of calls, events E, and behind
-them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator that Python
-has to evaluate, room for events; or because the budget is spent.
+one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), counters T, the stack of calls, events E,
+and behind them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator
+that Python has to evaluate, room for events; or because the budget is spent.
 """
 
 from typing import Any
@@ -31,19 +34,39 @@ from numba import njit
 
 from plcgen.plc.fast.helpers import *
 
+HELPERS = "{helpers}"
+"""Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
 DONE, REQUEST, EXHAUSTED, FULL = range(4)
+QUIET = -1
+"""Of `enter`: ended, and there is nothing to tell."""
+START, BUDGET, CALLS = range(3)
+"""Fields of the state."""
+BASE = 1
+"""Slot of the instance's first byte."""
 FACTOR = 3
 KIND0, KIND1, KIND2, KIND3 = range(4)
 ROUNDING0, ROUNDING1, ROUNDING2, ROUNDING3 = range(4)
-CELL, STACK, EVENTS, SLOTS = 8, 16, 8208, 8208 + 131072
+CELL, COUNTS, STACK, EVENTS, SLOTS = 8, 16, 80, 8208, 8208 + 131072
 MOST_EVENTS = 30000
 """Noted before Python is told: the others fit between two jumps backwards."""
 '''
+TAIL = '''
+@njit(cache=True, error_model="numpy", nogil=True)
+def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int) -> int:
+    """Run from row `start` on the instance at `base`. Returns QUIET, or what `run` ended with."""
+    room[START], room[BUDGET], room[CALLS] = start, budget, 0
+    room[SLOTS + BASE] = base
+    ended = run(code, room, memory)
+    return QUIET if ended == DONE and not room[EVENTS] else ended
+'''
+STAMP = re.compile(r'(?<=^VM = ")\w+(?="$)', re.MULTILINE)
+"""In closed_loop.py, which has to change with the virtual machine that it calls."""
 PIECES = (
     "S = room[:CELL]",
     "W = room[CELL : CELL + 1].view(np.uint32)",
     "V = room[CELL : CELL + 1].view(np.float32)",
     "X = room[CELL + 1 : CELL + 2]",
+    "T = room[COUNTS:STACK]",
     "stack = room[STACK:EVENTS]",
     "E = room[EVENTS:SLOTS]",
     "I = room[SLOTS:]",
@@ -54,12 +77,21 @@ PIECES = (
 def written() -> str:
     """The text of the module."""
     bodies = all_bodies()
-    text = [HEAD, "BODIES = {"]
+    text = [HEAD.format(helpers=stamp(HELPERS.read_text("ascii"))), "BODIES = {"]
     text += [f"    {body.key!r}: {number}," for body, number in zip(bodies, count(FIRST_BODY), strict=False)]
     text += ["}", "", "", '@njit(cache=True, error_model="numpy", nogil=True)']
     text += ["def run(code: Any, room: Any, M: Any) -> int:"]
     text += ["    " + row for row in (*PIECES, *_loop(bodies))]
-    return "\n".join(text) + "\n"
+    return "\n".join(text) + "\n\n" + TAIL
+
+
+def stamp(text: str) -> str:
+    return sha256(text.encode()).hexdigest()[:16]
+
+
+def stamped(machine: str) -> str:
+    """The text of closed_loop.py for a text of the virtual machine."""
+    return STAMP.sub(stamp(machine), CLOSED_LOOP.read_text("ascii"))
 
 
 def all_bodies() -> list[Body]:
@@ -73,7 +105,7 @@ def rows() -> Iterator[Operator]:
         for row in operators.alternatives(name):
             if {str(kind) for kind in (*row.operands, row.result)} <= COMMON:
                 yield row
-    for module in (s7_operators, smart_operators, smart_boxes):
+    for module in (s7_operators, smart_operators, smart_boxes, smart_costs):
         yield from _of_module(vars(module).values())
     yield from _parametrised()
 
@@ -96,6 +128,7 @@ def _parametrised() -> Iterator[Operator]:
     for kind in (INT, DINT):
         yield s7_operators.negation_overflow(kind)
     yield from (s7_operators.pointed(800, bits, offset, "x") for bits in (1, 32) for offset in (0, 640))
+    yield from (smart_operators.pointed(size) for size in (1, 2, 4))
     yield from (smart_operators.status(kind, divides) for kind in (BYTE, INT, DINT, REAL) for divides in (False, True))
     yield from (smart_operators.outcome(kind, divides) for kind in (BYTE, INT, DINT, REAL) for divides in (False, True))
     yield from (smart_operators.illegal(kind) for kind in (INT, DINT, BYTE, WORD))
@@ -174,3 +207,4 @@ def _expanded(row: str) -> Iterable[str]:
 
 if __name__ == "__main__":
     FILE.write_text(written(), "ascii")
+    CLOSED_LOOP.write_text(stamped(written()), "ascii")

@@ -24,6 +24,12 @@ def report(E: Any, kind: int, site: int) -> None:  # noqa: N803 - a name of the 
 
 
 @compiled
+def count(T: Any, number: int) -> int:  # noqa: N803
+    T[number % len(T)] += 1
+    return 0
+
+
+@compiled
 def signed(value: int, minimum: int, bits: int) -> int:
     return ((value - minimum) & ((1 << bits) - 1)) + minimum
 

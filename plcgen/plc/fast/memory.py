@@ -49,6 +49,10 @@ class FastRunner:
         """See `Engine.bound`."""
         return self.engine.bound(name, 0 if instance is None else self._first_byte(instance))
 
+    def take_counts(self) -> list[int]:
+        """See `Engine.take_counts`."""
+        return self.engine.take_counts()
+
     def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
         """Scans of a block on its instance without Python; `places` are bytes of travel, velocity, setpoint, phase."""
         entry = self.engine.entry(name)

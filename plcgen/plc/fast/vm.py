@@ -1,9 +1,9 @@
 """The virtual machine. Written by `generate.py`: change that, not this.
 
 `code` holds an instruction a row: number, target, four operands, six numbers and the site. All but memory, M, lies in
-one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), the stack of calls, events E, and behind
-them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator that Python
-has to evaluate, room for events; or because the budget is spent.
+one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), counters T, the stack of calls, events E,
+and behind them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator
+that Python has to evaluate, room for events; or because the budget is spent.
 """
 
 from typing import Any
@@ -13,179 +13,189 @@ from numba import njit
 
 from plcgen.plc.fast.helpers import *
 
+HELPERS = "56b91967aae59a2b"
+"""Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
 DONE, REQUEST, EXHAUSTED, FULL = range(4)
+QUIET = -1
+"""Of `enter`: ended, and there is nothing to tell."""
+START, BUDGET, CALLS = range(3)
+"""Fields of the state."""
+BASE = 1
+"""Slot of the instance's first byte."""
 FACTOR = 3
 KIND0, KIND1, KIND2, KIND3 = range(4)
 ROUNDING0, ROUNDING1, ROUNDING2, ROUNDING3 = range(4)
-CELL, STACK, EVENTS, SLOTS = 8, 16, 8208, 8208 + 131072
+CELL, COUNTS, STACK, EVENTS, SLOTS = 8, 16, 80, 8208, 8208 + 131072
 MOST_EVENTS = 30000
 """Noted before Python is told: the others fit between two jumps backwards."""
 
 BODIES = {
-    '((A + B) & K0 ^ K1) - K1|iii|0||': 32,
-    '(A & 1) << 1|ii|0||': 33,
-    '(A & K0 ^ K1) - K1|ii|0||': 34,
-    '(A & K0) + 0|ii|0|R > K1 or R & K2|stop()': 35,
-    '(A & K0) + 0|ii|0|R > K1|stop()': 36,
-    '(A & K0) + K1|ii|0|R > K2 or R & K3|stop()': 37,
-    '(A & K0) + K1|ii|0|R > K2|stop()': 38,
-    '(A << (B % K0) | A >> K0 - (B % K0)) & K1|iii|0||': 39,
-    '(A << 1 | B >> 1) & K0|iii|0||': 40,
-    '(A << B % K0 | A >> K0 - B % K0) & K1|iii|0||': 41,
-    '(A << B >> K0 & 1) << 1 if B else C|iiii|0||': 42,
-    '(A >> (B % K0) | A << K0 - (B % K0)) & K1|iii|0||': 43,
-    '(A >> (B - 1) % K0 & 1) << 1 if B else C|iiii|0||': 44,
-    '(A >> (K0 - B) % K0 & 1) << 1 if B else C|iiii|0||': 45,
-    '(A >> B % K0 | A << K0 - B % K0) & K1|iii|0||': 46,
-    '(A >> B - 1 & 1) << 1 if B else C|iiii|0||': 47,
-    '(remainder(E, A, B, site) & K0) << K1 | quotient(E, A, B, site) & K0 if B else noted(E, C, KIND2, site)|iiii|0||': 48,
-    '-A|ff|0||': 49,
-    '-A|ii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 50,
-    '0 if not A or not B else 2 if (A < 0) == (B < 0) else 1|iii|0||': 51,
-    '2 if A > 0 else 1 if A < 0 else 0|ii|0||': 52,
-    '2 if A > 0.0 else 1 if A < 0.0 else 0 if A == 0.0 else K0|fi|0||': 53,
-    '2 if A > B else 1 if A < B else 0 if A == B else K0|ffi|0||': 54,
-    '2 if A > B else 1 if A < B else 0|iii|0||': 55,
-    '2 if A else 0|ii|0||': 56,
-    'A != A or B != B|ffb|0||': 57,
-    'A != B|bbb|0||': 58,
-    'A != B|iib|0||': 59,
-    'A & 1 == 1|ib|0||': 60,
-    'A & B|bbb|0||': 61,
-    'A & B|iii|0||': 62,
-    'A & K0 | (0 if -K1 <= B <= K2 else 2)|iii|0||': 63,
-    'A & K0 | (0 if 0 <= B <= K1 else 2)|iii|0||': 64,
-    'A & K0 | (1 if B == 0 else 0)|iii|0||': 65,
-    'A & K0 | (2 if not -K1 <= B <= K2 else 1 if B == 0 else K3 if B < 0 else 0) if C else A | K4|iiii|0||': 66,
-    'A & K0 | (2 if not -K1 <= B <= K2 else 1 if B == 0 else K3 if B < 0 else 0)|iii|0||': 67,
-    'A & K0 | (2 if not 0 <= B <= K1 else 1 if B == 0 else K2 if B < 0 else 0) if C else A | K3|iiii|0||': 68,
-    'A & K0 | (2 if not 0 <= B <= K1 else 1 if B == 0 else K2 if B < 0 else 0)|iii|0||': 69,
-    'A & K0 | (2 if not B - B == 0.0 else 1 if B == 0 else K1 if B < 0 else 0) if C else A | K2|iffi|0||': 70,
-    'A & K0 | (2 if not B - B == 0.0 else 1 if B == 0 else K1 if B < 0 else 0)|ifi|0||': 71,
-    'A & K0 | A + B & K1|iii|0||': 72,
-    'A & K0 | B & K1|iii|0||': 73,
-    'A & K0 | B|iii|0||': 74,
-    'A & K0|ii|0||': 75,
-    'A * A|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 76,
-    'A * B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 77,
-    'A * B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 78,
-    'A * B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 79,
-    'A * B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 80,
-    'A * B|iii|0||': 81,
-    'A + 0.0|if|0||': 82,
-    'A + 0.0|if|1||': 83,
-    'A + B & K0|iii|0||': 84,
-    'A + B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 85,
-    'A + B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 86,
-    'A + B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 87,
-    'A + B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 88,
-    'A - B & K0|iii|0||': 89,
-    'A - B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 90,
-    'A - B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 91,
-    'A - B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 92,
-    'A - B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 93,
-    'A / B if B else over_zero(E, A, B)|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 94,
-    'A < B or A > B|ffb|0||': 95,
-    'A < B|ffb|0||': 96,
-    'A < B|iib|0||': 97,
-    'A << B & K0|iii|0||': 98,
-    'A << min(B & K0, K1) & K0|iii|0||': 99,
-    'A << min(B & K0, K1) & K2|iii|0||': 100,
-    'A <= B|ffb|0||': 101,
-    'A <= B|iib|0||': 102,
-    'A == -K0|ib|0||': 103,
-    'A == 0 or A == 1|ib|0||': 104,
-    'A == 0 or A == 2|ib|0||': 105,
-    'A == 0|ib|0||': 106,
-    'A == 1 or A == 2|ib|0||': 107,
-    'A == 1|ib|0||': 108,
-    'A == 2|ib|0||': 109,
-    'A == B|bbb|0||': 110,
-    'A == B|ffb|0||': 111,
-    'A == B|iib|0||': 112,
-    'A == K0|ib|0||': 113,
-    'A > B|ffb|0||': 114,
-    'A > B|iib|0||': 115,
-    'A > K0|ib|0||': 116,
-    'A >= B|ffb|0||': 117,
-    'A >= B|iib|0||': 118,
-    'A >> 0 & 1 == 1|ib|0||': 119,
-    'A >> 1 & 1 == 1|ib|0||': 120,
-    'A >> 1 | B >> 1 << K0|iii|0||': 121,
-    'A >> B|iii|0||': 122,
-    'A >> K0 & 1 == 1|ib|0||': 123,
-    'A >> K0 & K1|ii|0||': 124,
-    'A >> K0 << 1|ii|0||': 125,
-    'A >> K0 | (A & K1) << K0|ii|0||': 126,
-    'A >> K0 | A >> K1 & K2 | (A & K2) << K1 | (A & K3) << K0|ii|0||': 127,
-    'A >> min(B & K0, K1)|iii|0||': 128,
-    'A ^ B|bbb|0||': 129,
-    'A ^ B|iii|0||': 130,
-    'A ^ K0|ii|0||': 131,
-    'A if A <= B else B|fff|0||': 132,
-    'A if A <= B else B|iii|0||': 133,
-    'A if A >= B else B|fff|0||': 134,
-    'A if A >= B else B|iii|0||': 135,
-    'A if B < A else C if B > C else B|ffff|0||': 136,
-    'A if B < A else C if B > C else B|iiii|0||': 137,
-    'A | B|bbb|0||': 138,
-    'A | B|iii|0||': 139,
-    'A|ii|0|not -K0 <= R <= K1|narrow(E, R, -K0, K2, site)': 140,
-    'A|ii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 141,
-    'A|ii|0|not 0 <= R <= K0|narrow(E, R, 0, K1, site)': 142,
-    'A|ii|0||': 143,
-    'B - B != 0.0 or B == 0.0 != A|ffb|0||': 144,
-    'B - B != 0.0 or B == 0.0 != G0|ffb|0||': 145,
-    'B - B != 0.0|ffb|0||': 146,
-    'B == 0 or A == -K0 and B == -1|iib|0||': 147,
-    'B if -K0 <= B <= K1 else A|iii|0||': 148,
-    'B if 0 <= B <= K0 else A|iii|0||': 149,
-    'B if A == 0 else False|ibb|0||': 150,
-    'B if B - B == 0.0 else A|fff|0||': 151,
-    'B if C and -K0 <= B <= K1 else A|iiii|0||': 152,
-    'B if C and 0 <= B <= K0 else A|iiii|0||': 153,
-    'B if C and B - B == 0.0 else A|ffff|0||': 154,
-    'C - C != 0.0 or C == 0.0 != A * B|fffb|0||': 155,
-    'C - C != 0.0 or C == 0.0 != A + B|fffb|0||': 156,
-    'C - C != 0.0 or C == 0.0 != A - B|fffb|0||': 157,
-    'C - C != 0.0 or C == 0.0 != A|fffb|0||': 158,
-    'C if A else B|bbbb|0||': 159,
-    'C if A else B|bfff|0||': 160,
-    'C if A else B|biii|0||': 161,
-    'K0 if not B else 0 if abs(A) < abs(B) else 2 if (A < 0) == (B < 0) else 1|iii|0||': 162,
-    'K0 if not B else 2 if C > 0 else 1 if C < 0 else 0|iiii|0||': 163,
-    'abs(A) > K0|ib|0||': 164,
-    'abs(A)|ff|0||': 165,
-    'abs(A)|ii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 166,
-    'approximate_acos(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 167,
-    'approximate_asin(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 168,
-    'approximate_atan(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 169,
-    'approximate_cos(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 170,
-    'approximate_exp(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 171,
-    'approximate_ln(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 172,
-    'approximate_log(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 173,
-    'approximate_sin(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 174,
-    'approximate_tan(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 175,
-    'bits_to_real(W, V, A)|if|0||': 176,
-    'not -G0 <= A < G0|fb|0||': 177,
-    'not -K0 <= A * B <= K1|iib|0||': 178,
-    'not -K0 <= A + B <= K1|iib|0||': 179,
-    'not -K0 <= A - B <= K1|iib|0||': 180,
-    'not A|bb|0||': 181,
-    'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 182,
-    'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 183,
-    'quotient(E, A, B, site)|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 184,
-    'real_to_bits(W, V, A)|fi|0||': 185,
-    'remainder(E, A, B, site) << K0 | quotient(E, A, B, site) & K1 if B else 0|iii|0||': 186,
-    'remainder(E, A, B, site)|iii|0||': 187,
-    'square_root(A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 188,
-    'to_integer(E, ROUNDING0, A, -K0, K1, site)|fi|0||': 189,
-    'to_integer(E, ROUNDING1, A, -K0, K1, site)|fi|0||': 190,
-    'to_integer(E, ROUNDING2, A, -K0, K1, site)|fi|0||': 191,
-    'to_integer(E, ROUNDING3, A, -K0, K1, site)|fi|0||': 192,
-    'truncated(A) if -G0 < A < G1 else K2|fi|0|not -K2 <= R <= K4|noted(E, R, KIND0, site)': 193,
-    'whole(A + (G0 if A > 0.0 else -G0)) if -G1 < A < G2 else K3|fi|0|not -K3 <= R <= K5|noted(E, R, KIND0, site)': 194,
-    'whole(A)|bi|0||': 195,
+    '((A & K0) << K1) + 0 if A >> K2 == K3 and (A & K0) <= K4 else -1 - A|ii|0|R < 0|stop()': 32,
+    '((A + B) & K0 ^ K1) - K1|iii|0||': 33,
+    '(A & 1) << 1|ii|0||': 34,
+    '(A & K0 ^ K1) - K1|ii|0||': 35,
+    '(A & K0) + 0|ii|0|R > K1 or R & K2|stop()': 36,
+    '(A & K0) + 0|ii|0|R > K1|stop()': 37,
+    '(A & K0) + K1|ii|0|R > K2 or R & K3|stop()': 38,
+    '(A & K0) + K1|ii|0|R > K2|stop()': 39,
+    '(A << (B % K0) | A >> K0 - (B % K0)) & K1|iii|0||': 40,
+    '(A << 1 | B >> 1) & K0|iii|0||': 41,
+    '(A << B % K0 | A >> K0 - B % K0) & K1|iii|0||': 42,
+    '(A << B >> K0 & 1) << 1 if B else C|iiii|0||': 43,
+    '(A >> (B % K0) | A << K0 - (B % K0)) & K1|iii|0||': 44,
+    '(A >> (B - 1) % K0 & 1) << 1 if B else C|iiii|0||': 45,
+    '(A >> (K0 - B) % K0 & 1) << 1 if B else C|iiii|0||': 46,
+    '(A >> B % K0 | A << K0 - B % K0) & K1|iii|0||': 47,
+    '(A >> B - 1 & 1) << 1 if B else C|iiii|0||': 48,
+    '(remainder(E, A, B, site) & K0) << K1 | quotient(E, A, B, site) & K0 if B else noted(E, C, KIND2, site)|iiii|0||': 49,
+    '-A|ff|0||': 50,
+    '-A|ii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 51,
+    '0 if not A or not B else 2 if (A < 0) == (B < 0) else 1|iii|0||': 52,
+    '2 if A > 0 else 1 if A < 0 else 0|ii|0||': 53,
+    '2 if A > 0.0 else 1 if A < 0.0 else 0 if A == 0.0 else K0|fi|0||': 54,
+    '2 if A > B else 1 if A < B else 0 if A == B else K0|ffi|0||': 55,
+    '2 if A > B else 1 if A < B else 0|iii|0||': 56,
+    '2 if A else 0|ii|0||': 57,
+    'A != A or B != B|ffb|0||': 58,
+    'A != B|bbb|0||': 59,
+    'A != B|iib|0||': 60,
+    'A & 1 == 1|ib|0||': 61,
+    'A & B|bbb|0||': 62,
+    'A & B|iii|0||': 63,
+    'A & K0 | (0 if -K1 <= B <= K2 else 2)|iii|0||': 64,
+    'A & K0 | (0 if 0 <= B <= K1 else 2)|iii|0||': 65,
+    'A & K0 | (1 if B == 0 else 0)|iii|0||': 66,
+    'A & K0 | (2 if not -K1 <= B <= K2 else 1 if B == 0 else K3 if B < 0 else 0) if C else A | K4|iiii|0||': 67,
+    'A & K0 | (2 if not -K1 <= B <= K2 else 1 if B == 0 else K3 if B < 0 else 0)|iii|0||': 68,
+    'A & K0 | (2 if not 0 <= B <= K1 else 1 if B == 0 else K2 if B < 0 else 0) if C else A | K3|iiii|0||': 69,
+    'A & K0 | (2 if not 0 <= B <= K1 else 1 if B == 0 else K2 if B < 0 else 0)|iii|0||': 70,
+    'A & K0 | (2 if not B - B == 0.0 else 1 if B == 0 else K1 if B < 0 else 0) if C else A | K2|iffi|0||': 71,
+    'A & K0 | (2 if not B - B == 0.0 else 1 if B == 0 else K1 if B < 0 else 0)|ifi|0||': 72,
+    'A & K0 | A + B & K1|iii|0||': 73,
+    'A & K0 | B & K1|iii|0||': 74,
+    'A & K0 | B|iii|0||': 75,
+    'A & K0|ii|0||': 76,
+    'A * A|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 77,
+    'A * B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 78,
+    'A * B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 79,
+    'A * B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 80,
+    'A * B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 81,
+    'A * B|iii|0||': 82,
+    'A + 0.0|if|0||': 83,
+    'A + 0.0|if|1||': 84,
+    'A + B & K0|iii|0||': 85,
+    'A + B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 86,
+    'A + B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 87,
+    'A + B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 88,
+    'A + B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 89,
+    'A - B & K0|iii|0||': 90,
+    'A - B|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 91,
+    'A - B|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 92,
+    'A - B|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 93,
+    'A - B|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 94,
+    'A / B if B else over_zero(E, A, B)|fff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 95,
+    'A < B or A > B|ffb|0||': 96,
+    'A < B|ffb|0||': 97,
+    'A < B|iib|0||': 98,
+    'A << B & K0|iii|0||': 99,
+    'A << min(B & K0, K1) & K0|iii|0||': 100,
+    'A << min(B & K0, K1) & K2|iii|0||': 101,
+    'A <= B|ffb|0||': 102,
+    'A <= B|iib|0||': 103,
+    'A == -K0|ib|0||': 104,
+    'A == 0 or A == 1|ib|0||': 105,
+    'A == 0 or A == 2|ib|0||': 106,
+    'A == 0|ib|0||': 107,
+    'A == 1 or A == 2|ib|0||': 108,
+    'A == 1|ib|0||': 109,
+    'A == 2|ib|0||': 110,
+    'A == B|bbb|0||': 111,
+    'A == B|ffb|0||': 112,
+    'A == B|iib|0||': 113,
+    'A == K0|ib|0||': 114,
+    'A > B|ffb|0||': 115,
+    'A > B|iib|0||': 116,
+    'A > K0|ib|0||': 117,
+    'A >= B|ffb|0||': 118,
+    'A >= B|iib|0||': 119,
+    'A >> 0 & 1 == 1|ib|0||': 120,
+    'A >> 1 & 1 == 1|ib|0||': 121,
+    'A >> 1 | B >> 1 << K0|iii|0||': 122,
+    'A >> B|iii|0||': 123,
+    'A >> K0 & 1 == 1|ib|0||': 124,
+    'A >> K0 & K1|ii|0||': 125,
+    'A >> K0 << 1|ii|0||': 126,
+    'A >> K0 | (A & K1) << K0|ii|0||': 127,
+    'A >> K0 | A >> K1 & K2 | (A & K2) << K1 | (A & K3) << K0|ii|0||': 128,
+    'A >> min(B & K0, K1)|iii|0||': 129,
+    'A ^ B|bbb|0||': 130,
+    'A ^ B|iii|0||': 131,
+    'A ^ K0|ii|0||': 132,
+    'A if A <= B else B|fff|0||': 133,
+    'A if A <= B else B|iii|0||': 134,
+    'A if A >= B else B|fff|0||': 135,
+    'A if A >= B else B|iii|0||': 136,
+    'A if B < A else C if B > C else B|ffff|0||': 137,
+    'A if B < A else C if B > C else B|iiii|0||': 138,
+    'A | B|bbb|0||': 139,
+    'A | B|iii|0||': 140,
+    'A|ii|0|not -K0 <= R <= K1|narrow(E, R, -K0, K2, site)': 141,
+    'A|ii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 142,
+    'A|ii|0|not 0 <= R <= K0|narrow(E, R, 0, K1, site)': 143,
+    'A|ii|0||': 144,
+    'B - B != 0.0 or B == 0.0 != A|ffb|0||': 145,
+    'B - B != 0.0 or B == 0.0 != G0|ffb|0||': 146,
+    'B - B != 0.0|ffb|0||': 147,
+    'B == 0 or A == -K0 and B == -1|iib|0||': 148,
+    'B if -K0 <= B <= K1 else A|iii|0||': 149,
+    'B if 0 <= B <= K0 else A|iii|0||': 150,
+    'B if A == 0 else False|ibb|0||': 151,
+    'B if B - B == 0.0 else A|fff|0||': 152,
+    'B if C and -K0 <= B <= K1 else A|iiii|0||': 153,
+    'B if C and 0 <= B <= K0 else A|iiii|0||': 154,
+    'B if C and B - B == 0.0 else A|ffff|0||': 155,
+    'C - C != 0.0 or C == 0.0 != A * B|fffb|0||': 156,
+    'C - C != 0.0 or C == 0.0 != A + B|fffb|0||': 157,
+    'C - C != 0.0 or C == 0.0 != A - B|fffb|0||': 158,
+    'C - C != 0.0 or C == 0.0 != A|fffb|0||': 159,
+    'C if A else B|bbbb|0||': 160,
+    'C if A else B|bfff|0||': 161,
+    'C if A else B|biii|0||': 162,
+    'K0 if not B else 0 if abs(A) < abs(B) else 2 if (A < 0) == (B < 0) else 1|iii|0||': 163,
+    'K0 if not B else 2 if C > 0 else 1 if C < 0 else 0|iiii|0||': 164,
+    'abs(A) > K0|ib|0||': 165,
+    'abs(A)|ff|0||': 166,
+    'abs(A)|ii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 167,
+    'approximate_acos(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 168,
+    'approximate_asin(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 169,
+    'approximate_atan(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 170,
+    'approximate_cos(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 171,
+    'approximate_exp(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 172,
+    'approximate_ln(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 173,
+    'approximate_log(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 174,
+    'approximate_sin(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 175,
+    'approximate_tan(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 176,
+    'bits_to_real(W, V, A)|if|0||': 177,
+    'count(T, A)|ib|0||': 178,
+    'not -G0 <= A < G0|fb|0||': 179,
+    'not -K0 <= A * B <= K1|iib|0||': 180,
+    'not -K0 <= A + B <= K1|iib|0||': 181,
+    'not -K0 <= A - B <= K1|iib|0||': 182,
+    'not A|bb|0||': 183,
+    'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 184,
+    'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 185,
+    'quotient(E, A, B, site)|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 186,
+    'real_to_bits(W, V, A)|fi|0||': 187,
+    'remainder(E, A, B, site) << K0 | quotient(E, A, B, site) & K1 if B else 0|iii|0||': 188,
+    'remainder(E, A, B, site)|iii|0||': 189,
+    'square_root(A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 190,
+    'to_integer(E, ROUNDING0, A, -K0, K1, site)|fi|0||': 191,
+    'to_integer(E, ROUNDING1, A, -K0, K1, site)|fi|0||': 192,
+    'to_integer(E, ROUNDING2, A, -K0, K1, site)|fi|0||': 193,
+    'to_integer(E, ROUNDING3, A, -K0, K1, site)|fi|0||': 194,
+    'truncated(A) if -G0 < A < G1 else K2|fi|0|not -K2 <= R <= K4|noted(E, R, KIND0, site)': 195,
+    'whole(A + (G0 if A > 0.0 else -G0)) if -G1 < A < G2 else K3|fi|0|not -K3 <= R <= K5|noted(E, R, KIND0, site)': 196,
+    'whole(A)|bi|0||': 197,
 }
 
 
@@ -195,6 +205,7 @@ def run(code: Any, room: Any, M: Any) -> int:
     W = room[CELL : CELL + 1].view(np.uint32)
     V = room[CELL : CELL + 1].view(np.float32)
     X = room[CELL + 1 : CELL + 2]
+    T = room[COUNTS:STACK]
     stack = room[STACK:EVENTS]
     E = room[EVENTS:SLOTS]
     I = room[SLOTS:]
@@ -323,449 +334,466 @@ def run(code: Any, room: Any, M: Any) -> int:
                 return REQUEST
             I[t] = (I[a] - I[b]) * I[d]
         elif op == 32:
-            I[t] = ((I[a] + I[b]) & I[code[pc, 6]] ^ I[code[pc, 7]]) - I[code[pc, 7]]
+            R = ((I[a] & I[code[pc, 6]]) << I[code[pc, 7]]) + 0 if I[a] >> I[code[pc, 8]] == I[code[pc, 9]] and (I[a] & I[code[pc, 6]]) <= I[code[pc, 10]] else -1 - I[a]
+            if R < 0:
+                S[0] = pc
+                return REQUEST
+            I[t] = R
         elif op == 33:
-            I[t] = (I[a] & 1) << 1
+            I[t] = ((I[a] + I[b]) & I[code[pc, 6]] ^ I[code[pc, 7]]) - I[code[pc, 7]]
         elif op == 34:
-            I[t] = (I[a] & I[code[pc, 6]] ^ I[code[pc, 7]]) - I[code[pc, 7]]
+            I[t] = (I[a] & 1) << 1
         elif op == 35:
+            I[t] = (I[a] & I[code[pc, 6]] ^ I[code[pc, 7]]) - I[code[pc, 7]]
+        elif op == 36:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]] or R & I[code[pc, 8]]:
                 S[0] = pc
                 return REQUEST
             I[t] = R
-        elif op == 36:
+        elif op == 37:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]]:
                 S[0] = pc
                 return REQUEST
             I[t] = R
-        elif op == 37:
+        elif op == 38:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]] or R & I[code[pc, 9]]:
                 S[0] = pc
                 return REQUEST
             I[t] = R
-        elif op == 38:
+        elif op == 39:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]]:
                 S[0] = pc
                 return REQUEST
             I[t] = R
-        elif op == 39:
-            I[t] = (I[a] << (I[b] % I[code[pc, 6]]) | I[a] >> I[code[pc, 6]] - (I[b] % I[code[pc, 6]])) & I[code[pc, 7]]
         elif op == 40:
-            I[t] = (I[a] << 1 | I[b] >> 1) & I[code[pc, 6]]
+            I[t] = (I[a] << (I[b] % I[code[pc, 6]]) | I[a] >> I[code[pc, 6]] - (I[b] % I[code[pc, 6]])) & I[code[pc, 7]]
         elif op == 41:
-            I[t] = (I[a] << I[b] % I[code[pc, 6]] | I[a] >> I[code[pc, 6]] - I[b] % I[code[pc, 6]]) & I[code[pc, 7]]
+            I[t] = (I[a] << 1 | I[b] >> 1) & I[code[pc, 6]]
         elif op == 42:
-            I[t] = (I[a] << I[b] >> I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
+            I[t] = (I[a] << I[b] % I[code[pc, 6]] | I[a] >> I[code[pc, 6]] - I[b] % I[code[pc, 6]]) & I[code[pc, 7]]
         elif op == 43:
-            I[t] = (I[a] >> (I[b] % I[code[pc, 6]]) | I[a] << I[code[pc, 6]] - (I[b] % I[code[pc, 6]])) & I[code[pc, 7]]
+            I[t] = (I[a] << I[b] >> I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
         elif op == 44:
-            I[t] = (I[a] >> (I[b] - 1) % I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
+            I[t] = (I[a] >> (I[b] % I[code[pc, 6]]) | I[a] << I[code[pc, 6]] - (I[b] % I[code[pc, 6]])) & I[code[pc, 7]]
         elif op == 45:
-            I[t] = (I[a] >> (I[code[pc, 6]] - I[b]) % I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
+            I[t] = (I[a] >> (I[b] - 1) % I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
         elif op == 46:
-            I[t] = (I[a] >> I[b] % I[code[pc, 6]] | I[a] << I[code[pc, 6]] - I[b] % I[code[pc, 6]]) & I[code[pc, 7]]
+            I[t] = (I[a] >> (I[code[pc, 6]] - I[b]) % I[code[pc, 6]] & 1) << 1 if I[b] else I[c]
         elif op == 47:
-            I[t] = (I[a] >> I[b] - 1 & 1) << 1 if I[b] else I[c]
+            I[t] = (I[a] >> I[b] % I[code[pc, 6]] | I[a] << I[code[pc, 6]] - I[b] % I[code[pc, 6]]) & I[code[pc, 7]]
         elif op == 48:
-            I[t] = (remainder(E, I[a], I[b], site) & I[code[pc, 6]]) << I[code[pc, 7]] | quotient(E, I[a], I[b], site) & I[code[pc, 6]] if I[b] else noted(E, I[c], KIND2, site)
+            I[t] = (I[a] >> I[b] - 1 & 1) << 1 if I[b] else I[c]
         elif op == 49:
-            F[t] = -F[a]
+            I[t] = (remainder(E, I[a], I[b], site) & I[code[pc, 6]]) << I[code[pc, 7]] | quotient(E, I[a], I[b], site) & I[code[pc, 6]] if I[b] else noted(E, I[c], KIND2, site)
         elif op == 50:
+            F[t] = -F[a]
+        elif op == 51:
             R = -I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 51:
-            I[t] = 0 if not I[a] or not I[b] else 2 if (I[a] < 0) == (I[b] < 0) else 1
         elif op == 52:
-            I[t] = 2 if I[a] > 0 else 1 if I[a] < 0 else 0
+            I[t] = 0 if not I[a] or not I[b] else 2 if (I[a] < 0) == (I[b] < 0) else 1
         elif op == 53:
-            I[t] = 2 if F[a] > 0.0 else 1 if F[a] < 0.0 else 0 if F[a] == 0.0 else I[code[pc, 6]]
+            I[t] = 2 if I[a] > 0 else 1 if I[a] < 0 else 0
         elif op == 54:
-            I[t] = 2 if F[a] > F[b] else 1 if F[a] < F[b] else 0 if F[a] == F[b] else I[code[pc, 6]]
+            I[t] = 2 if F[a] > 0.0 else 1 if F[a] < 0.0 else 0 if F[a] == 0.0 else I[code[pc, 6]]
         elif op == 55:
-            I[t] = 2 if I[a] > I[b] else 1 if I[a] < I[b] else 0
+            I[t] = 2 if F[a] > F[b] else 1 if F[a] < F[b] else 0 if F[a] == F[b] else I[code[pc, 6]]
         elif op == 56:
-            I[t] = 2 if I[a] else 0
+            I[t] = 2 if I[a] > I[b] else 1 if I[a] < I[b] else 0
         elif op == 57:
-            I[t] = 1 if (F[a] != F[a] or F[b] != F[b]) else 0
+            I[t] = 2 if I[a] else 0
         elif op == 58:
-            I[t] = 1 if (I[a] != I[b]) else 0
+            I[t] = 1 if (F[a] != F[a] or F[b] != F[b]) else 0
         elif op == 59:
             I[t] = 1 if (I[a] != I[b]) else 0
         elif op == 60:
-            I[t] = 1 if (I[a] & 1 == 1) else 0
+            I[t] = 1 if (I[a] != I[b]) else 0
         elif op == 61:
-            I[t] = 1 if (I[a] & I[b]) else 0
+            I[t] = 1 if (I[a] & 1 == 1) else 0
         elif op == 62:
-            I[t] = I[a] & I[b]
+            I[t] = 1 if (I[a] & I[b]) else 0
         elif op == 63:
-            I[t] = I[a] & I[code[pc, 6]] | (0 if -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 2)
+            I[t] = I[a] & I[b]
         elif op == 64:
-            I[t] = I[a] & I[code[pc, 6]] | (0 if 0 <= I[b] <= I[code[pc, 7]] else 2)
+            I[t] = I[a] & I[code[pc, 6]] | (0 if -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 2)
         elif op == 65:
-            I[t] = I[a] & I[code[pc, 6]] | (1 if I[b] == 0 else 0)
+            I[t] = I[a] & I[code[pc, 6]] | (0 if 0 <= I[b] <= I[code[pc, 7]] else 2)
         elif op == 66:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 1 if I[b] == 0 else I[code[pc, 9]] if I[b] < 0 else 0) if I[c] else I[a] | I[code[pc, 10]]
+            I[t] = I[a] & I[code[pc, 6]] | (1 if I[b] == 0 else 0)
         elif op == 67:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 1 if I[b] == 0 else I[code[pc, 9]] if I[b] < 0 else 0)
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 1 if I[b] == 0 else I[code[pc, 9]] if I[b] < 0 else 0) if I[c] else I[a] | I[code[pc, 10]]
         elif op == 68:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not 0 <= I[b] <= I[code[pc, 7]] else 1 if I[b] == 0 else I[code[pc, 8]] if I[b] < 0 else 0) if I[c] else I[a] | I[code[pc, 9]]
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not -I[code[pc, 7]] <= I[b] <= I[code[pc, 8]] else 1 if I[b] == 0 else I[code[pc, 9]] if I[b] < 0 else 0)
         elif op == 69:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not 0 <= I[b] <= I[code[pc, 7]] else 1 if I[b] == 0 else I[code[pc, 8]] if I[b] < 0 else 0)
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not 0 <= I[b] <= I[code[pc, 7]] else 1 if I[b] == 0 else I[code[pc, 8]] if I[b] < 0 else 0) if I[c] else I[a] | I[code[pc, 9]]
         elif op == 70:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not F[b] - F[b] == 0.0 else 1 if F[b] == 0 else I[code[pc, 7]] if F[b] < 0 else 0) if F[c] else I[a] | I[code[pc, 8]]
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not 0 <= I[b] <= I[code[pc, 7]] else 1 if I[b] == 0 else I[code[pc, 8]] if I[b] < 0 else 0)
         elif op == 71:
-            I[t] = I[a] & I[code[pc, 6]] | (2 if not F[b] - F[b] == 0.0 else 1 if F[b] == 0 else I[code[pc, 7]] if F[b] < 0 else 0)
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not F[b] - F[b] == 0.0 else 1 if F[b] == 0 else I[code[pc, 7]] if F[b] < 0 else 0) if F[c] else I[a] | I[code[pc, 8]]
         elif op == 72:
-            I[t] = I[a] & I[code[pc, 6]] | I[a] + I[b] & I[code[pc, 7]]
+            I[t] = I[a] & I[code[pc, 6]] | (2 if not F[b] - F[b] == 0.0 else 1 if F[b] == 0 else I[code[pc, 7]] if F[b] < 0 else 0)
         elif op == 73:
-            I[t] = I[a] & I[code[pc, 6]] | I[b] & I[code[pc, 7]]
+            I[t] = I[a] & I[code[pc, 6]] | I[a] + I[b] & I[code[pc, 7]]
         elif op == 74:
-            I[t] = I[a] & I[code[pc, 6]] | I[b]
+            I[t] = I[a] & I[code[pc, 6]] | I[b] & I[code[pc, 7]]
         elif op == 75:
-            I[t] = I[a] & I[code[pc, 6]]
+            I[t] = I[a] & I[code[pc, 6]] | I[b]
         elif op == 76:
+            I[t] = I[a] & I[code[pc, 6]]
+        elif op == 77:
             Q = np.float64(np.float32(F[a] * F[a]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 77:
+        elif op == 78:
             Q = np.float64(np.float32(F[a] * F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 78:
+        elif op == 79:
             R = I[a] * I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 79:
+        elif op == 80:
             R = I[a] * I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 80:
+        elif op == 81:
             R = I[a] * I[b]
             if not 0 <= R <= I[code[pc, 6]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 81:
-            I[t] = I[a] * I[b]
         elif op == 82:
-            F[t] = I[a] + 0.0
+            I[t] = I[a] * I[b]
         elif op == 83:
-            F[t] = np.float64(np.float32(I[a] + 0.0))
+            F[t] = I[a] + 0.0
         elif op == 84:
-            I[t] = I[a] + I[b] & I[code[pc, 6]]
+            F[t] = np.float64(np.float32(I[a] + 0.0))
         elif op == 85:
+            I[t] = I[a] + I[b] & I[code[pc, 6]]
+        elif op == 86:
             Q = np.float64(np.float32(F[a] + F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 86:
+        elif op == 87:
             R = I[a] + I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 87:
+        elif op == 88:
             R = I[a] + I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 88:
+        elif op == 89:
             R = I[a] + I[b]
             if not 0 <= R <= I[code[pc, 6]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 89:
-            I[t] = I[a] - I[b] & I[code[pc, 6]]
         elif op == 90:
+            I[t] = I[a] - I[b] & I[code[pc, 6]]
+        elif op == 91:
             Q = np.float64(np.float32(F[a] - F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 91:
+        elif op == 92:
             R = I[a] - I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 92:
+        elif op == 93:
             R = I[a] - I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 93:
+        elif op == 94:
             R = I[a] - I[b]
             if not 0 <= R <= I[code[pc, 6]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 94:
+        elif op == 95:
             Q = np.float64(np.float32(F[a] / F[b] if F[b] else over_zero(E, F[a], F[b])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 95:
-            I[t] = 1 if (F[a] < F[b] or F[a] > F[b]) else 0
         elif op == 96:
-            I[t] = 1 if (F[a] < F[b]) else 0
+            I[t] = 1 if (F[a] < F[b] or F[a] > F[b]) else 0
         elif op == 97:
-            I[t] = 1 if (I[a] < I[b]) else 0
+            I[t] = 1 if (F[a] < F[b]) else 0
         elif op == 98:
-            I[t] = I[a] << I[b] & I[code[pc, 6]]
+            I[t] = 1 if (I[a] < I[b]) else 0
         elif op == 99:
-            I[t] = I[a] << min(I[b] & I[code[pc, 6]], I[code[pc, 7]]) & I[code[pc, 6]]
+            I[t] = I[a] << I[b] & I[code[pc, 6]]
         elif op == 100:
-            I[t] = I[a] << min(I[b] & I[code[pc, 6]], I[code[pc, 7]]) & I[code[pc, 8]]
+            I[t] = I[a] << min(I[b] & I[code[pc, 6]], I[code[pc, 7]]) & I[code[pc, 6]]
         elif op == 101:
-            I[t] = 1 if (F[a] <= F[b]) else 0
+            I[t] = I[a] << min(I[b] & I[code[pc, 6]], I[code[pc, 7]]) & I[code[pc, 8]]
         elif op == 102:
-            I[t] = 1 if (I[a] <= I[b]) else 0
+            I[t] = 1 if (F[a] <= F[b]) else 0
         elif op == 103:
-            I[t] = 1 if (I[a] == -I[code[pc, 6]]) else 0
+            I[t] = 1 if (I[a] <= I[b]) else 0
         elif op == 104:
-            I[t] = 1 if (I[a] == 0 or I[a] == 1) else 0
+            I[t] = 1 if (I[a] == -I[code[pc, 6]]) else 0
         elif op == 105:
-            I[t] = 1 if (I[a] == 0 or I[a] == 2) else 0
+            I[t] = 1 if (I[a] == 0 or I[a] == 1) else 0
         elif op == 106:
-            I[t] = 1 if (I[a] == 0) else 0
+            I[t] = 1 if (I[a] == 0 or I[a] == 2) else 0
         elif op == 107:
-            I[t] = 1 if (I[a] == 1 or I[a] == 2) else 0
+            I[t] = 1 if (I[a] == 0) else 0
         elif op == 108:
-            I[t] = 1 if (I[a] == 1) else 0
+            I[t] = 1 if (I[a] == 1 or I[a] == 2) else 0
         elif op == 109:
-            I[t] = 1 if (I[a] == 2) else 0
+            I[t] = 1 if (I[a] == 1) else 0
         elif op == 110:
-            I[t] = 1 if (I[a] == I[b]) else 0
+            I[t] = 1 if (I[a] == 2) else 0
         elif op == 111:
-            I[t] = 1 if (F[a] == F[b]) else 0
-        elif op == 112:
             I[t] = 1 if (I[a] == I[b]) else 0
+        elif op == 112:
+            I[t] = 1 if (F[a] == F[b]) else 0
         elif op == 113:
-            I[t] = 1 if (I[a] == I[code[pc, 6]]) else 0
+            I[t] = 1 if (I[a] == I[b]) else 0
         elif op == 114:
-            I[t] = 1 if (F[a] > F[b]) else 0
+            I[t] = 1 if (I[a] == I[code[pc, 6]]) else 0
         elif op == 115:
-            I[t] = 1 if (I[a] > I[b]) else 0
+            I[t] = 1 if (F[a] > F[b]) else 0
         elif op == 116:
-            I[t] = 1 if (I[a] > I[code[pc, 6]]) else 0
+            I[t] = 1 if (I[a] > I[b]) else 0
         elif op == 117:
-            I[t] = 1 if (F[a] >= F[b]) else 0
+            I[t] = 1 if (I[a] > I[code[pc, 6]]) else 0
         elif op == 118:
-            I[t] = 1 if (I[a] >= I[b]) else 0
+            I[t] = 1 if (F[a] >= F[b]) else 0
         elif op == 119:
-            I[t] = 1 if (I[a] >> 0 & 1 == 1) else 0
+            I[t] = 1 if (I[a] >= I[b]) else 0
         elif op == 120:
-            I[t] = 1 if (I[a] >> 1 & 1 == 1) else 0
+            I[t] = 1 if (I[a] >> 0 & 1 == 1) else 0
         elif op == 121:
-            I[t] = I[a] >> 1 | I[b] >> 1 << I[code[pc, 6]]
+            I[t] = 1 if (I[a] >> 1 & 1 == 1) else 0
         elif op == 122:
-            I[t] = I[a] >> I[b]
+            I[t] = I[a] >> 1 | I[b] >> 1 << I[code[pc, 6]]
         elif op == 123:
-            I[t] = 1 if (I[a] >> I[code[pc, 6]] & 1 == 1) else 0
+            I[t] = I[a] >> I[b]
         elif op == 124:
-            I[t] = I[a] >> I[code[pc, 6]] & I[code[pc, 7]]
+            I[t] = 1 if (I[a] >> I[code[pc, 6]] & 1 == 1) else 0
         elif op == 125:
-            I[t] = I[a] >> I[code[pc, 6]] << 1
+            I[t] = I[a] >> I[code[pc, 6]] & I[code[pc, 7]]
         elif op == 126:
-            I[t] = I[a] >> I[code[pc, 6]] | (I[a] & I[code[pc, 7]]) << I[code[pc, 6]]
+            I[t] = I[a] >> I[code[pc, 6]] << 1
         elif op == 127:
-            I[t] = I[a] >> I[code[pc, 6]] | I[a] >> I[code[pc, 7]] & I[code[pc, 8]] | (I[a] & I[code[pc, 8]]) << I[code[pc, 7]] | (I[a] & I[code[pc, 9]]) << I[code[pc, 6]]
+            I[t] = I[a] >> I[code[pc, 6]] | (I[a] & I[code[pc, 7]]) << I[code[pc, 6]]
         elif op == 128:
-            I[t] = I[a] >> min(I[b] & I[code[pc, 6]], I[code[pc, 7]])
+            I[t] = I[a] >> I[code[pc, 6]] | I[a] >> I[code[pc, 7]] & I[code[pc, 8]] | (I[a] & I[code[pc, 8]]) << I[code[pc, 7]] | (I[a] & I[code[pc, 9]]) << I[code[pc, 6]]
         elif op == 129:
-            I[t] = 1 if (I[a] ^ I[b]) else 0
+            I[t] = I[a] >> min(I[b] & I[code[pc, 6]], I[code[pc, 7]])
         elif op == 130:
-            I[t] = I[a] ^ I[b]
+            I[t] = 1 if (I[a] ^ I[b]) else 0
         elif op == 131:
-            I[t] = I[a] ^ I[code[pc, 6]]
+            I[t] = I[a] ^ I[b]
         elif op == 132:
-            F[t] = F[a] if F[a] <= F[b] else F[b]
+            I[t] = I[a] ^ I[code[pc, 6]]
         elif op == 133:
-            I[t] = I[a] if I[a] <= I[b] else I[b]
+            F[t] = F[a] if F[a] <= F[b] else F[b]
         elif op == 134:
-            F[t] = F[a] if F[a] >= F[b] else F[b]
+            I[t] = I[a] if I[a] <= I[b] else I[b]
         elif op == 135:
-            I[t] = I[a] if I[a] >= I[b] else I[b]
+            F[t] = F[a] if F[a] >= F[b] else F[b]
         elif op == 136:
-            F[t] = F[a] if F[b] < F[a] else F[c] if F[b] > F[c] else F[b]
+            I[t] = I[a] if I[a] >= I[b] else I[b]
         elif op == 137:
-            I[t] = I[a] if I[b] < I[a] else I[c] if I[b] > I[c] else I[b]
+            F[t] = F[a] if F[b] < F[a] else F[c] if F[b] > F[c] else F[b]
         elif op == 138:
-            I[t] = 1 if (I[a] | I[b]) else 0
+            I[t] = I[a] if I[b] < I[a] else I[c] if I[b] > I[c] else I[b]
         elif op == 139:
-            I[t] = I[a] | I[b]
+            I[t] = 1 if (I[a] | I[b]) else 0
         elif op == 140:
+            I[t] = I[a] | I[b]
+        elif op == 141:
             R = I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = narrow(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 141:
+        elif op == 142:
             R = I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 142:
+        elif op == 143:
             R = I[a]
             if not 0 <= R <= I[code[pc, 6]]:
                 R = narrow(E, R, 0, I[code[pc, 7]], site)
             I[t] = R
-        elif op == 143:
-            I[t] = I[a]
         elif op == 144:
-            I[t] = 1 if (F[b] - F[b] != 0.0 or F[b] == 0.0 != F[a]) else 0
+            I[t] = I[a]
         elif op == 145:
-            I[t] = 1 if (F[b] - F[b] != 0.0 or F[b] == 0.0 != F[code[pc, 6]]) else 0
+            I[t] = 1 if (F[b] - F[b] != 0.0 or F[b] == 0.0 != F[a]) else 0
         elif op == 146:
-            I[t] = 1 if (F[b] - F[b] != 0.0) else 0
+            I[t] = 1 if (F[b] - F[b] != 0.0 or F[b] == 0.0 != F[code[pc, 6]]) else 0
         elif op == 147:
-            I[t] = 1 if (I[b] == 0 or I[a] == -I[code[pc, 6]] and I[b] == -1) else 0
+            I[t] = 1 if (F[b] - F[b] != 0.0) else 0
         elif op == 148:
-            I[t] = I[b] if -I[code[pc, 6]] <= I[b] <= I[code[pc, 7]] else I[a]
+            I[t] = 1 if (I[b] == 0 or I[a] == -I[code[pc, 6]] and I[b] == -1) else 0
         elif op == 149:
-            I[t] = I[b] if 0 <= I[b] <= I[code[pc, 6]] else I[a]
+            I[t] = I[b] if -I[code[pc, 6]] <= I[b] <= I[code[pc, 7]] else I[a]
         elif op == 150:
-            I[t] = 1 if (I[b] if I[a] == 0 else False) else 0
+            I[t] = I[b] if 0 <= I[b] <= I[code[pc, 6]] else I[a]
         elif op == 151:
-            F[t] = F[b] if F[b] - F[b] == 0.0 else F[a]
+            I[t] = 1 if (I[b] if I[a] == 0 else False) else 0
         elif op == 152:
-            I[t] = I[b] if I[c] and -I[code[pc, 6]] <= I[b] <= I[code[pc, 7]] else I[a]
+            F[t] = F[b] if F[b] - F[b] == 0.0 else F[a]
         elif op == 153:
-            I[t] = I[b] if I[c] and 0 <= I[b] <= I[code[pc, 6]] else I[a]
+            I[t] = I[b] if I[c] and -I[code[pc, 6]] <= I[b] <= I[code[pc, 7]] else I[a]
         elif op == 154:
-            F[t] = F[b] if F[c] and F[b] - F[b] == 0.0 else F[a]
+            I[t] = I[b] if I[c] and 0 <= I[b] <= I[code[pc, 6]] else I[a]
         elif op == 155:
-            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] * F[b]) else 0
+            F[t] = F[b] if F[c] and F[b] - F[b] == 0.0 else F[a]
         elif op == 156:
-            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] + F[b]) else 0
+            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] * F[b]) else 0
         elif op == 157:
-            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] - F[b]) else 0
+            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] + F[b]) else 0
         elif op == 158:
-            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a]) else 0
+            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a] - F[b]) else 0
         elif op == 159:
-            I[t] = 1 if (I[c] if I[a] else I[b]) else 0
+            I[t] = 1 if (F[c] - F[c] != 0.0 or F[c] == 0.0 != F[a]) else 0
         elif op == 160:
-            F[t] = F[c] if I[a] else F[b]
+            I[t] = 1 if (I[c] if I[a] else I[b]) else 0
         elif op == 161:
-            I[t] = I[c] if I[a] else I[b]
+            F[t] = F[c] if I[a] else F[b]
         elif op == 162:
-            I[t] = I[code[pc, 6]] if not I[b] else 0 if abs(I[a]) < abs(I[b]) else 2 if (I[a] < 0) == (I[b] < 0) else 1
+            I[t] = I[c] if I[a] else I[b]
         elif op == 163:
-            I[t] = I[code[pc, 6]] if not I[b] else 2 if I[c] > 0 else 1 if I[c] < 0 else 0
+            I[t] = I[code[pc, 6]] if not I[b] else 0 if abs(I[a]) < abs(I[b]) else 2 if (I[a] < 0) == (I[b] < 0) else 1
         elif op == 164:
-            I[t] = 1 if (abs(I[a]) > I[code[pc, 6]]) else 0
+            I[t] = I[code[pc, 6]] if not I[b] else 2 if I[c] > 0 else 1 if I[c] < 0 else 0
         elif op == 165:
-            F[t] = abs(F[a])
+            I[t] = 1 if (abs(I[a]) > I[code[pc, 6]]) else 0
         elif op == 166:
+            F[t] = abs(F[a])
+        elif op == 167:
             R = abs(I[a])
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 167:
+        elif op == 168:
             Q = np.float64(np.float32(approximate_acos(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 168:
+        elif op == 169:
             Q = np.float64(np.float32(approximate_asin(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 169:
+        elif op == 170:
             Q = np.float64(np.float32(approximate_atan(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 170:
+        elif op == 171:
             Q = np.float64(np.float32(approximate_cos(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 171:
+        elif op == 172:
             Q = np.float64(np.float32(approximate_exp(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 172:
+        elif op == 173:
             Q = np.float64(np.float32(approximate_ln(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 173:
+        elif op == 174:
             Q = np.float64(np.float32(approximate_log(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 174:
+        elif op == 175:
             Q = np.float64(np.float32(approximate_sin(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 175:
+        elif op == 176:
             Q = np.float64(np.float32(approximate_tan(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 176:
-            F[t] = bits_to_real(W, V, I[a])
         elif op == 177:
-            I[t] = 1 if (not -F[code[pc, 6]] <= F[a] < F[code[pc, 6]]) else 0
+            F[t] = bits_to_real(W, V, I[a])
         elif op == 178:
-            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] * I[b] <= I[code[pc, 7]]) else 0
+            I[t] = 1 if (count(T, I[a])) else 0
         elif op == 179:
-            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] + I[b] <= I[code[pc, 7]]) else 0
+            I[t] = 1 if (not -F[code[pc, 6]] <= F[a] < F[code[pc, 6]]) else 0
         elif op == 180:
-            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] - I[b] <= I[code[pc, 7]]) else 0
+            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] * I[b] <= I[code[pc, 7]]) else 0
         elif op == 181:
-            I[t] = 1 if (not I[a]) else 0
+            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] + I[b] <= I[code[pc, 7]]) else 0
         elif op == 182:
+            I[t] = 1 if (not -I[code[pc, 6]] <= I[a] - I[b] <= I[code[pc, 7]]) else 0
+        elif op == 183:
+            I[t] = 1 if (not I[a]) else 0
+        elif op == 184:
             R = quotient(E, I[a], I[b], site)
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 183:
+        elif op == 185:
             R = quotient(E, I[a], I[b], site)
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
                 R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
-        elif op == 184:
+        elif op == 186:
             R = quotient(E, I[a], I[b], site)
             if not 0 <= R <= I[code[pc, 6]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 185:
-            I[t] = real_to_bits(W, V, F[a])
-        elif op == 186:
-            I[t] = remainder(E, I[a], I[b], site) << I[code[pc, 6]] | quotient(E, I[a], I[b], site) & I[code[pc, 7]] if I[b] else 0
         elif op == 187:
-            I[t] = remainder(E, I[a], I[b], site)
+            I[t] = real_to_bits(W, V, F[a])
         elif op == 188:
+            I[t] = remainder(E, I[a], I[b], site) << I[code[pc, 6]] | quotient(E, I[a], I[b], site) & I[code[pc, 7]] if I[b] else 0
+        elif op == 189:
+            I[t] = remainder(E, I[a], I[b], site)
+        elif op == 190:
             Q = np.float64(np.float32(square_root(F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
                 Q = special(E, Q, site)
             F[t] = Q
-        elif op == 189:
-            I[t] = to_integer(E, ROUNDING0, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
-        elif op == 190:
-            I[t] = to_integer(E, ROUNDING1, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 191:
-            I[t] = to_integer(E, ROUNDING2, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(E, ROUNDING0, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 192:
-            I[t] = to_integer(E, ROUNDING3, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(E, ROUNDING1, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 193:
+            I[t] = to_integer(E, ROUNDING2, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+        elif op == 194:
+            I[t] = to_integer(E, ROUNDING3, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+        elif op == 195:
             R = truncated(F[a]) if -F[code[pc, 6]] < F[a] < F[code[pc, 7]] else I[code[pc, 8]]
             if not -I[code[pc, 8]] <= R <= I[code[pc, 10]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 194:
+        elif op == 196:
             R = whole(F[a] + (F[code[pc, 6]] if F[a] > 0.0 else -F[code[pc, 6]])) if -F[code[pc, 7]] < F[a] < F[code[pc, 8]] else I[code[pc, 9]]
             if not -I[code[pc, 9]] <= R <= I[code[pc, 11]]:
                 R = noted(E, R, KIND0, site)
             I[t] = R
-        elif op == 195:
+        elif op == 197:
             I[t] = whole(I[a])
         pc += 1
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int) -> int:
+    """Run from row `start` on the instance at `base`. Returns QUIET, or what `run` ended with."""
+    room[START], room[BUDGET], room[CALLS] = start, budget, 0
+    room[SLOTS + BASE] = base
+    ended = run(code, room, memory)
+    return QUIET if ended == DONE and not room[EVENTS] else ended

@@ -64,5 +64,5 @@ CLASSES: Mapping[str, str] = {word: _class_of(word) for word in MNEMONICS}
 """The class of each mnemonic."""
 NUMBERS: Mapping[str, int] = {name: number for number, name in enumerate(COSTS)}
 
-SPEND = Operator("SPEND", (INT,), BOOL, "service_spend({0})")
-"""(number of the class) : an instruction of it is executed."""
+SPEND = Operator("SPEND", (INT,), BOOL, "count({0})")
+"""(number of the class) : an instruction of it is executed, see `Engine.take_counts`."""

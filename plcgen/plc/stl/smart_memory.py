@@ -50,8 +50,9 @@ AREAS: Mapping[Area | str, int] = {
 STARTS: Mapping[Area | str, int] = {area: sum(list(AREAS.values())[:place]) for place, area in enumerate(AREAS)}
 """Where each area lies in the one piece of memory."""
 
+POINTER_TO_V = 0x08
 POINTER_AREAS: Mapping[int, Area | str] = {
-    0x08: V,
+    POINTER_TO_V: V,
     0x00: Area.INPUTS,
     0x01: Area.OUTPUTS,
     0x02: Area.MEMORY,

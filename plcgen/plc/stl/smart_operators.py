@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from functools import cache
 
 from plcgen.plc.operators import Operator, resolve
-from plcgen.plc.types import BOOL, BYTE, DINT, DWORD, INT, LINT, REAL, WORD, Elementary
+from plcgen.plc.stl.smart_memory import AREAS, POINTER_TO_V, STARTS, V
+from plcgen.plc.types import BOOL, BYTE, BYTE_BITS, DINT, DWORD, INT, LINT, REAL, WORD, Elementary
 
 ZERO, ILLEGAL, NEGATIVE, DIVIDED_BY_ZERO = 1, 2, 4, 8
 """Bits of SM1."""
@@ -103,6 +104,7 @@ def widened(source: Elementary, result: Elementary) -> Operator:
 
 # ------------------------------------------------------------------------------------------------- pointers, system
 
+
 _NO_TARGET = (
     "stop('pointer 16#%08X points nowhere; set it with MOVD &VB..., AC1 and keep it in its area' % ~{r}, {site})"
 )
@@ -110,8 +112,18 @@ _NO_TARGET = (
 
 @cache
 def pointed(size: int) -> Operator:
-    """(pointer) : bits from the start of memory to `size` bytes there; a pointer to nowhere stops the CPU."""
-    return Operator("POINTED", (DWORD,), DINT, f"pointed({{0}}, {size})", False, "{r} < 0", _NO_TARGET)
+    """(pointer) : bits from the start of memory to `size` bytes there; a pointer to nowhere stops the CPU.
+
+    V memory, where nearly all pointers point, is found without a call.
+    """
+    offset = "({0} & 16777215)"
+    inside = f"{{0}} >> 24 == {POINTER_TO_V} and {offset} <= {AREAS[V] - size}"
+    place = f"({offset} << 3) + {STARTS[V] * BYTE_BITS} if {inside} else -1 - {{0}}"
+    nowhere = (
+        "stop('pointer 16#%08X points nowhere; set it with MOVD &VB..., AC1 and keep it in its area' % ~{r}, {site})"
+    )
+    elsewhere = f"(place if (place := pointed(~{{r}}, {size})) >= 0 else {nowhere})"
+    return Operator("POINTED", (DWORD,), DINT, place, False, "{r} < 0", elsewhere)
 
 
 def service(name: str, *operands: Elementary) -> Operator:
