@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 from plcgen.plc.core import Program
 from plcgen.plc.scl import lowering as scl
@@ -19,7 +20,13 @@ DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
-    """Parse and lower every source file of a target for S7-300 or TIA."""
+    """Parse and lower every source file of a target for S7-300 or TIA; the latest ones are at hand."""
+    return _load(target, tuple(files.items()))
+
+
+@lru_cache(maxsize=8)
+def _load(target: str, entries: tuple[tuple[str, bytes], ...]) -> Program:
+    files = dict(entries)
     if TARGETS[target].dialect == "stl":
         return stl.lower(read_stl(files))
     return scl.lower(*read_scl(target, files))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -99,7 +100,12 @@ def load(job: Job, files: Mapping[str, bytes], timed: bool = False) -> Program:
     """The joined file when it is there, else every block by itself. `timed`: with what counts its run time."""
     joined = f"{job.name}.awl"
     names = [joined] if joined in files else sorted(name for name in files if name.endswith(".awl"))
-    blocks = [block for name in names for block in parse(decode_source(name, files[name]))]
+    return _load(tuple((name, files[name]) for name in names), timed)
+
+
+@lru_cache(maxsize=8)
+def _load(files: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
+    blocks = [block for name, data in files for block in parse(decode_source(name, data))]
     return lower(blocks, timed=timed)
 
 
