@@ -208,12 +208,18 @@ def _off_the_stop(model: TwoAxisModel, move: MoveModel, lead: Samples) -> float:
     """
     period, worst = model.sample_period, np.inf
     exact, speed, acceleration = move.motion(np.arange(move.samples + 1) * period)
-    for begin in range(1, min(len(lead), move.samples)):
-        if abs(lead[begin] - exact[begin]) > position_bound(move):
-            break
+    last = min(len(lead), move.samples)
+    parted = np.flatnonzero(np.abs(lead[1:last] - exact[1:last]) > position_bound(move))
+    for begin in range(int(parted[0]) if len(parted) else last - 1, 0, -1):
         law = move.stop(float(speed[begin]), float(acceleration[begin]))
-        stop = np.minimum(lead[begin] + law(np.arange(len(lead) - begin) * period), move.lead_pulses)
-        worst = min(worst, float(np.abs(lead[begin:] - stop).max()))
+
+        def off(samples: Samples, begin: int = begin, law: Callable[[Samples], Samples] = law) -> float:
+            stop = np.minimum(lead[begin] + law((samples - begin) * period), move.lead_pulses)
+            return float(np.abs(lead[samples] - stop).max())
+
+        # Most begins are worse in their last sample than another in all.
+        if off(np.array([len(lead) - 1])) < worst:
+            worst = min(worst, off(np.arange(begin, len(lead))))
     return float(worst)
 
 

@@ -60,6 +60,7 @@ class Table:
         self._variables: dict[str, Variable] = {}
         directions = dict(zip(self.model.outputs, self.model.directions, strict=True))
         self.cpu = Smart(program, scan_us, lateness, blocked, temp_fill, directions)
+        self._status_byte = int(self.model.addresses["status"].removeprefix("VB"))
         for name in RETAINED if retained else ():
             self.variable(name).set(retained)
         self.cpu.scan()
@@ -105,7 +106,8 @@ class Table:
         busy, done, stopped = (self.variable(flag).get for flag in ("busy", "done", "stopped"))
         while self.cpu.time_us < end and (busy() or until is not None):
             told_early |= bool(busy() and (done() or stopped()))
-            self.cpu.scan()
+            left = -(-(end - self.cpu.time_us) // self.cpu.scan_us)
+            self.cpu.scans(left, self._status_byte)
         for _ in range(SETTLED):
             self.cpu.scan()
         if self.model.is_table:

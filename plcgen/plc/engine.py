@@ -130,6 +130,9 @@ class Engine:
     def closed_loop(self, _name: str, _instance: Bytes, _places: Sequence[int]) -> None:
         """Here Python is in between anyway."""
 
+    def scan_loop(self, _name: str, _views: Sequence[Bytes], _watched: int, _costs: Sequence[float]) -> None:
+        """Here Python is in between anyway."""
+
     def source_of(self, name: str) -> str:
         """The Python text of a block."""
         return self._sources[name]

@@ -20,7 +20,14 @@ Memory = dict[Area | str, Bytes]
 Run = Callable[..., Any]
 
 
-class ClosedLoop(Protocol):
+class Loop(Protocol):
+    """Scans at once."""
+
+    def settle(self) -> None:
+        """Let Python do what the last scan needs, run it to its end, and tell its events. Raises Fault."""
+
+
+class ClosedLoop(Loop, Protocol):
     """See `fast.closed_loop`."""
 
     LONGEST: int
@@ -29,7 +36,18 @@ class ClosedLoop(Protocol):
 
     def run(self, times: np.ndarray, drive: np.ndarray, late: np.ndarray, phases: int, passing: int) -> int: ...
 
-    def settle(self) -> None: ...
+
+class ScanLoop(Loop, Protocol):
+    """See `fast.scan_loop`."""
+
+    longest: float
+
+    @property
+    def is_whole(self) -> bool: ...
+
+    def run(
+        self, ports: Sequence[tuple[int, int, int, int]], enabled: int, clock: tuple[int, int, int], most: int
+    ) -> int: ...
 
 
 class Runner(Protocol):
@@ -41,6 +59,9 @@ class Runner(Protocol):
 
     def adopt(self, data: bytes) -> Bytes:
         """Memory for another instance."""
+
+    def scan_loop(self, name: str, views: Sequence[Bytes], watched: int, costs: Sequence[float]) -> ScanLoop | None:
+        """Scans of a SMART between which nothing happens; None where there is no quicker way than one by one."""
 
     def take_counts(self) -> list[int]:
         """See `Engine.take_counts`."""

@@ -83,6 +83,7 @@ class Machine:
         self.engine, self.memory = engines.start(
             program, self.memory, self._note, temp_fill, function_error, self.services()
         )
+        self.engine.budget[0] = budget
 
     def global_memory(self) -> dict[Area | str, Bytes]:
         """Fresh memory outside data blocks."""
@@ -128,11 +129,10 @@ class Machine:
         bytes_of = [member.bit // BYTE_BITS for member in members if member is not None]
         if [str(member.type) for member in members if member] != ["REAL", "REAL", "REAL", "INT"]:
             return None
-        self.engine.budget[0] = self._budget
         return self.engine.closed_loop(name, self.memory[instance], bytes_of)
 
-    def settle(self, loop: engines.ClosedLoop) -> None:
-        """End the last scan of a closed loop. Raises Fault where a CPU would stop."""
+    def settle(self, loop: engines.Loop) -> None:
+        """End the last scan of a loop. Raises Fault where a CPU would stop."""
         try:
             loop.settle()
         except Fault as fault:

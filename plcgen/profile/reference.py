@@ -72,6 +72,10 @@ class Reference:
     def _jerks(self) -> Samples:
         return np.array([phase.jerk for phase in self.phases])
 
+    @cached_property
+    def _legs(self) -> NDArray[np.int64]:
+        return np.array([phase.leg for phase in self.phases])
+
     def _phase_of(self, starts: Samples, values: Samples) -> NDArray[np.int64]:
         """Indices of the phases in which values lie, given where each phase starts."""
         return np.clip(np.searchsorted(starts, values, side="right") - 1, 0, len(self.phases) - 1)
@@ -100,7 +104,7 @@ class Reference:
         index = self._phase_of(self._starts[:, 0], clipped)
         start_time, travel, velocity, acceleration = self._starts[index].T
         jerk = self._jerks[index]
-        leg = np.array([phase.leg for phase in self.phases])[index]
+        leg = self._legs[index]
         t = clipped - start_time
         return Motion(
             travel + _way(t, velocity, acceleration, jerk),

@@ -17,6 +17,7 @@ from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Cell, Compute, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
 from plcgen.plc.engine import Bytes
+from plcgen.plc.engines import ScanLoop
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
 from plcgen.plc.stl.smart_costs import COSTS, SPEND
@@ -151,6 +152,7 @@ class Smart:
         self._attached: dict[int, str] = {}
         self._ticks: dict[int, _Ticks] = {}
         self._queue: list[_Request] = []
+        self._loops: dict[int, ScanLoop | None] = {}
         self._arrivals = 0
         self._enabled = False
         self._scans = 0
@@ -190,10 +192,18 @@ class Smart:
 
     def scan(self) -> None:
         """One scan: MAIN, then time goes on to its end, with the interrupts that fall due."""
-        self._advance(self._next_scan)
+        if self.time_us < self._next_scan or self._queue:
+            self._advance(self._next_scan)
         self._main()
         self._advance(self._next_scan)
         self._refresh()
+
+    def scans(self, most: int, watched: int) -> int:
+        """Up to `most` scans, until a byte of V memory has another value or something happens. Returns how many."""
+        rows = self._quiet_scans(most, watched)
+        if not rows:
+            self.scan()
+        return rows or 1
 
     def run_until(self, time_us: int) -> None:
         """Scans and interrupts up to and with a time; the last scan may be on the way then."""
@@ -222,9 +232,55 @@ class Smart:
         self._processor.scan = self._scans
         if self._cycle in self.program.functions:
             self.results = self._run(self._cycle, self.arguments)
+        self._main_is_over()
+
+    def _main_is_over(self) -> None:
         self._scans += 1
         self._next_scan += self.scan_us
         self._serve()
+
+    def _quiet_scans(self, most: int, watched: int) -> int:
+        """Scans in which nothing happens but MAIN, at once; 0 where there is none, or no quick way."""
+        loop = self._loop_watching(watched)
+        if loop is None or not self.running:
+            return 0
+        quiet_until = min(self._next_moment(), *(channel.boundary for channel in self._channels))
+        most = min(most, (math.ceil(quiet_until) - 1 - self._next_scan) // self.scan_us)
+        if most < 1:
+            return 0
+        ports = [channel.shown for channel in self._channels]
+        enabled = INTERRUPTS_ENABLED if self._enabled else 0
+        rows = loop.run(ports, enabled, (self._scans, self._next_scan, self.scan_us), most)
+        if rows:
+            self._end_quiet_scans(loop, rows - 1)
+        return rows
+
+    def _end_quiet_scans(self, loop: ScanLoop, before: int) -> None:
+        """The last scan, after those `before` it, may have done what Python has to see to."""
+        self._scans += before
+        self._next_scan += before * self.scan_us
+        self.time_us = self._next_scan
+        self._note_run_time(self._cycle, loop.longest)
+        if loop.is_whole:
+            self._watch_directions()
+            self._main_is_over()
+            self.time_us = self._next_scan
+        else:
+            self._processor.scan = self._scans
+            self._guarded(self._cycle, self._processor.settle, loop)
+            self._main_is_over()
+            self._advance(self._next_scan)
+            self._refresh()
+
+    def _loop_watching(self, byte: int) -> ScanLoop | None:
+        if self.arguments or self._cycle not in self.program.functions:
+            return None
+        if byte not in self._loops:
+            views = (self._special, self.memory[Area.OUTPUTS], self.memory[PHYSICAL_OUTPUTS], self.memory[V])
+            self._loops[byte] = self._processor.engine.scan_loop(
+                self._cycle, views, byte, self._costs if self._is_timed else ()
+            )
+        return self._loops[byte]
 
     def _outputs(self) -> None:
         """The end of a scan: the image goes to the outputs."""
@@ -235,19 +291,23 @@ class Smart:
         if not self.running:
             return None
         self._refresh()
+        return self._guarded(name, self._processor.call, name, None, arguments)
+
+    def _guarded(self, name: str, call: Callable[..., Any], *arguments: Any) -> Any:
+        """What a block does may stop the CPU, and turn a direction."""
         try:
-            return self._processor.call(name, arguments=arguments)
+            return call(*arguments)
         except _StopMode:
             self.running = False
             return None
         finally:
             if self._is_timed:
-                self._clock_run(name)
+                self._note_run_time(name, sum(map(mul, self._processor.engine.take_counts(), self._costs)))
             self._watch_directions()
 
-    def _clock_run(self, name: str) -> None:
-        spent = sum(map(mul, self._processor.engine.take_counts(), self._costs))
-        self.run_times[name] = max(spent, self.run_times.get(name, 0.0))
+    def _note_run_time(self, name: str, microseconds: float) -> None:
+        if self._is_timed:
+            self.run_times[name] = max(microseconds, self.run_times.get(name, 0.0))
 
     def _refresh(self) -> None:
         self._special[0] |= ALWAYS_ON

@@ -124,7 +124,7 @@ class ClosedLoop:
         return self._rows
 
     def settle(self) -> None:
-        """Let Python do what the last scan needs, and tell its events. Raises Fault."""
+        """See `engines.Loop`."""
         engine, row, ended = self._engine, self._rows - 1, int(self._fields[ENDED])
         if ended == QUIET:
             return

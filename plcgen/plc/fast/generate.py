@@ -15,7 +15,9 @@ from plcgen.plc.stl import s7_operators, smart_boxes, smart_costs, smart_operato
 from plcgen.plc.types import BYTE, DINT, INT, REAL, WORD
 
 FILE = Path(__file__).with_name("vm.py")
-HELPERS, CLOSED_LOOP = FILE.with_name("helpers.py"), FILE.with_name("closed_loop.py")
+HELPERS = FILE.with_name("helpers.py")
+CALLERS = FILE.with_name("closed_loop.py"), FILE.with_name("scan_loop.py")
+"""What has to change with the virtual machine that it calls."""
 COMMON = frozenset({"BOOL", "BYTE", "WORD", "DWORD", "CHAR", "INT", "DINT", "REAL", "TIME"})
 """Types whose rows have bodies; the others are rare."""
 FIRST_BODY = 32
@@ -60,7 +62,7 @@ def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int)
     return QUIET if ended == DONE and not room[EVENTS] else ended
 '''
 STAMP = re.compile(r'(?<=^VM = ")\w+(?="$)', re.MULTILINE)
-"""In closed_loop.py, which has to change with the virtual machine that it calls."""
+"""In the callers."""
 PIECES = (
     "S = room[:CELL]",
     "W = room[CELL : CELL + 1].view(np.uint32)",
@@ -89,9 +91,9 @@ def stamp(text: str) -> str:
     return sha256(text.encode()).hexdigest()[:16]
 
 
-def stamped(machine: str) -> str:
-    """The text of closed_loop.py for a text of the virtual machine."""
-    return STAMP.sub(stamp(machine), CLOSED_LOOP.read_text("ascii"))
+def stamped(caller: Path, machine: str) -> str:
+    """The text of a caller for a text of the virtual machine."""
+    return STAMP.sub(stamp(machine), caller.read_text("ascii"))
 
 
 def all_bodies() -> list[Body]:
@@ -207,4 +209,5 @@ def _expanded(row: str) -> Iterable[str]:
 
 if __name__ == "__main__":
     FILE.write_text(written(), "ascii")
-    CLOSED_LOOP.write_text(stamped(written()), "ascii")
+    for caller in CALLERS:
+        caller.write_text(stamped(caller, written()), "ascii")

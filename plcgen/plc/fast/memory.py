@@ -12,6 +12,7 @@ from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Site
 from plcgen.plc.fast.closed_loop import PHASE_AT, SETPOINT_AT, TRAVEL_AT, VELOCITY_AT, ClosedLoop
 from plcgen.plc.fast.engine import FastEngine
+from plcgen.plc.fast.scan_loop import ScanLoop
 
 ROOM = 1 << 17
 """Bytes behind the areas: frames, constants, instances that come later."""
@@ -60,6 +61,16 @@ class FastRunner:
         if entry is None:
             return None
         return ClosedLoop(self.engine, entry, self._first_byte(instance), len(instance), fields)
+
+    def scan_loop(self, name: str, views: Sequence[Bytes], watched: int, costs: Sequence[float]) -> ScanLoop | None:
+        """Scans of a block without Python; views of special memory, of the image of the outputs, of the outputs, and
+        of the memory in which the byte is that is watched.
+        """
+        entry = self.engine.entry(name)
+        if entry is None:
+            return None
+        special, image, outputs, memory = map(self._first_byte, views)
+        return ScanLoop(self.engine, entry, (special, image, outputs, len(views[2]), memory + watched), costs)
 
     def _first_byte(self, view: Bytes) -> int:
         address: int = np.frombuffer(view, np.uint8).__array_interface__["data"][0]
