@@ -85,6 +85,10 @@ class Table:
         self.cpu.scan()
         button.set(False)
 
+    def scans(self, most: int) -> None:
+        """Up to `most` scans, until something happens or the status changes."""
+        self.cpu.scans(most, self._status_byte)
+
     def positions(self, times: Samples) -> tuple[Samples, Samples]:
         x, y = (self.cpu.channels[output].position_at(times) for output in self.model.outputs)
         return x, y
@@ -106,8 +110,7 @@ class Table:
         busy, done, stopped = (self.variable(flag).get for flag in ("busy", "done", "stopped"))
         while self.cpu.time_us < end and (busy() or until is not None):
             told_early |= bool(busy() and (done() or stopped()))
-            left = -(-(end - self.cpu.time_us) // self.cpu.scan_us)
-            self.cpu.scans(left, self._status_byte)
+            self.scans(-(-(end - self.cpu.time_us) // self.cpu.scan_us))
         for _ in range(SETTLED):
             self.cpu.scan()
         if self.model.is_table:

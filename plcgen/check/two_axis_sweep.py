@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from plcgen.check.two_axis_rig import SCAN_US, SECOND, SETTLED, Subject, Table
 from plcgen.plc.cpu.pto import Channel
 
+MANY = 1_000_000
+"""Scans, more than any move takes."""
+
 
 @dataclass(frozen=True)
 class Order:
@@ -60,7 +63,7 @@ def _sent(table: Table, order: Order) -> Sweep:
     table.order(*order.ordered)
     table.press(0)
     while table.get("busy"):
-        table.cpu.scan()
+        table.scans(MANY)
     for _ in range(SETTLED):
         table.cpu.scan()
     refused = bool(table.get("refused"))

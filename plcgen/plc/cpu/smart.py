@@ -344,7 +344,7 @@ class Smart:
         for event, channel in self._events:
             if channel.busy and (channel.has_load_waiting or event in self._attached):
                 moment = min(moment, math.ceil(channel.next_change))
-        if self._queue and self._enabled:
+        if self._queue and self._enabled and self.running:
             moment = min(moment, self._free_from(self.time_us))
         return moment
 

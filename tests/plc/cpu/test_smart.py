@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from random import Random
 
 import pytest
 
@@ -12,7 +13,9 @@ from plcgen.plc.source import SourceText
 from plcgen.plc.stl.lowering import lower
 from plcgen.plc.stl.parser import parse
 from plcgen.plc.stl.smart_costs import CLASSES, COSTS
+from plcgen.plc.stl.smart_memory import PHYSICAL_OUTPUTS, V
 from plcgen.plc.types import DWORD, REAL, WORD
+from tests.plc.conftest import smart_text
 
 Make = Callable[..., Smart]
 
@@ -235,6 +238,17 @@ def test_interrupt_gives_back_accumulators_and_sm1(smart: Make) -> None:
     assert [machine.variable(path).get() for path in ("VD20", "AC1", "SM1.0", "SM1.2")] == [9, 7, True, False]
 
 
+def test_an_interrupt_that_waits_when_the_program_stops_the_cpu(smart: Make) -> None:
+    """Time goes on without it."""
+    machine = smart(
+        {"blocked": [(9000, 16_000)]},
+        OB1=START.format(period=10) + "LD SM0.0\nINCW VW0\n----\nLDW= VW0, 3\nSTOP",
+        INT0="LD SM0.0\nINCW VW2",
+    )
+    machine.run_until(100_000)
+    assert (machine.running, count(machine), count(machine, "VW2")) == (False, 3, 0)
+
+
 def test_outputs_follow_their_image_at_the_end_of_the_scan(smart: Make) -> None:
     machine = smart(
         OB1="""
@@ -248,6 +262,103 @@ def test_outputs_follow_their_image_at_the_end_of_the_scan(smart: Make) -> None:
     assert physical[0] == 0x20
     machine.run_until(5_000)
     assert physical[0] == 0x30
+
+
+# Everything that ends a row of quiet scans: the byte that is watched (VB9), outputs by the image and at once, trains
+# and their ends, ticks, events, an overflow now and then, DISI and STOP.
+BUSY = {
+    "OB1": """
+        LD     SM0.1
+        MOVB   {period}, SMB34
+        ATCH   INT0, 10
+        ATCH   INT1, {event}
+        ENI
+        MOVW   100, SMW68
+        MOVD   {pulses}, SMD72
+        ----
+        LD     SM0.0
+        INCW   VW0
+        MOVW   VW0, VW2
+        MOVD   +2147483000, VD20
+        ----
+        LDW=   VW0, {overflow}
+        +D     VD20, VD20
+        ----
+        LD     SM0.0
+        MOVW   VW0, VW4
+        SRW    VW4, {slow}
+        MOVB   VB5, VB9
+        ----
+        LDW=   VW0, {train}
+        MOVB   16#C5, SMB67
+        PLS    0
+        ----
+        LDW>=  VW0, {image}
+        =      Q0.4
+        ----
+        LDW>=  VW0, {at_once}
+        =I     Q0.5
+        ----
+        LDW=   VW0, {disabled}
+        DISI
+        ----
+        LDW=   VW0, {stop}
+        STOP
+        """,
+    "INT0": """
+        LD     SM0.0
+        INCW   VW30
+        """,
+    "INT1": """
+        LD     SM0.0
+        INCW   VW32
+        """,
+}
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba", reason="the fast engine needs Numba")
+    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+    random = Random(seed)
+    numbers = {name: random.randrange(2, 250) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
+    numbers |= {"period": random.randrange(1, 256), "event": random.choice([19, 20])}
+    numbers |= {"pulses": random.randrange(1, 3000), "slow": random.randrange(2, 8)}
+    program = lower(
+        parse(SourceText("busy.awl", smart_text(**{n: t.format(**numbers) for n, t in BUSY.items()}))), timed=True
+    )
+    scan_us, direction = random.choice([900, 5000]), random.choice(["Q0.4", "Q0.5"])
+    single, quick = (Smart(program, scan_us, directions={"Q0.0": direction}) for _ in range(2))
+    done = 0
+    while done < 260:
+        batch = random.randrange(1, 60)
+        left = batch
+        while left:
+            left -= quick.scans(left, watched=9)
+        for _ in range(batch):
+            single.scan()
+        done += batch
+        assert observed(quick) == observed(single), (seed, done, numbers)
+    assert len(quick._loops) == 1
+
+
+def test_scans_stop_where_the_watched_byte_changes(smart: Make) -> None:
+    machine = smart({}, OB1=COUNT)
+    scans = [machine.scans(1000, watched=0) for _ in range(2)]
+    assert scans in ([256, 256], [1, 1])  # VB0 is the high byte of VW0; the plain engine goes scan by scan
+
+
+def observed(machine: Smart) -> tuple[object, ...]:
+    return (
+        bytes(machine.memory[V]),
+        bytes(machine.memory[PHYSICAL_OUTPUTS]),
+        machine.time_us,
+        machine.running,
+        machine.faults,
+        machine.violations,
+        machine.run_times,
+        [(channel.segments, channel.lost, channel.busy) for channel in machine.channels.values()],
+    )
 
 
 def test_estimated_run_times() -> None:
