@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from plcgen.plc.core import Program
-from plcgen.plc.scl import lowering as scl
-from plcgen.plc.scl import parser as scl_parser
-from plcgen.plc.scl.dialects import CLASSIC, TIA, Dialect
-from plcgen.plc.scl.syntax import Block as SclBlock
 from plcgen.plc.source import SourceText, decode_source
-from plcgen.plc.stl import s7_lowering as stl
-from plcgen.plc.stl import s7_parser as stl_parser
-from plcgen.plc.stl.s7_syntax import Block as StlBlock
 from plcgen.targets import TARGETS
 
-DIALECTS = {dialect.name: dialect for dialect in (CLASSIC, TIA)}
+# Each language is imported when a source of it is read: a command that only generates is quick.
+if TYPE_CHECKING:
+    from plcgen.plc.core import Program
+    from plcgen.plc.scl.dialects import Dialect
+    from plcgen.plc.scl.syntax import Block as SclBlock
+    from plcgen.plc.stl.s7_syntax import Block as StlBlock
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
@@ -26,21 +24,29 @@ def load(target: str, files: Mapping[str, bytes]) -> Program:
 
 @lru_cache(maxsize=8)
 def _load(target: str, entries: tuple[tuple[str, bytes], ...]) -> Program:
-    files = dict(entries)
     if TARGETS[target].dialect == "stl":
-        return stl.lower(read_stl(files))
-    return scl.lower(*read_scl(target, files))
+        from plcgen.plc.stl import s7_lowering as stl
+
+        return stl.lower(read_stl(dict(entries)))
+    from plcgen.plc.scl import lowering as scl
+
+    return scl.lower(*read_scl(target, dict(entries)))
 
 
 def read_stl(files: Mapping[str, bytes]) -> list[StlBlock]:
     """The blocks of all STL sources; those of the example that calls the others come last."""
-    return [block for source in _sources("s7-300-stl", files) for block in stl_parser.parse(source)]
+    from plcgen.plc.stl.s7_parser import parse
+
+    return [block for source in _sources("s7-300-stl", files) for block in parse(source)]
 
 
 def read_scl(target: str, files: Mapping[str, bytes]) -> tuple[list[SclBlock], Dialect]:
     """The blocks of all SCL sources of a target, in the same order, and their dialect."""
-    dialect = DIALECTS[TARGETS[target].dialect]
-    return [block for source in _sources(target, files) for block in scl_parser.parse(source, dialect)], dialect
+    from plcgen.plc.scl.dialects import CLASSIC, TIA
+    from plcgen.plc.scl.parser import parse
+
+    dialect = next(dialect for dialect in (CLASSIC, TIA) if dialect.name == TARGETS[target].dialect)
+    return [block for source in _sources(target, files) for block in parse(source, dialect)], dialect
 
 
 def _sources(target: str, files: Mapping[str, bytes]) -> list[SourceText]:

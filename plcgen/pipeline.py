@@ -8,7 +8,6 @@ from importlib import import_module
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.estimates import Estimate
 from plcgen.job import Job
-from plcgen.loading import read_stl
 from plcgen.plan import Derivation, Files, Plan, Progress
 from plcgen.trajectory import Trajectory, disagreements
 
@@ -47,6 +46,7 @@ def verify(
     if target != STL or (fail_fast and not verdict.ok):
         return verdict
     from plcgen.check.binary_result import binary_result
+    from plcgen.loading import read_stl
 
     return TargetVerdict((*verdict.checks, binary_result(read_stl(files)), agreement(plan, files)))
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plcgen.check.hoist import Subject, nominal_trace, verify_hoist
 from plcgen.check.hoist_model import HoistModel, TripModel
 from plcgen.check.verdict import TargetVerdict
 from plcgen.job import Job
@@ -19,6 +19,9 @@ from plcgen.profile.hoist_rules import derive, encoder_step, position_window
 from plcgen.render.files import OutputFile
 from plcgen.render.hoist import block_names, hoist_context, output_files
 from plcgen.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from plcgen.check.hoist import Subject
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,8 @@ class HoistPlan(Plan):
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
+        from plcgen.check.hoist import verify_hoist
+
         return verify_hoist(self.subject(target, files), progress, fail_fast)
 
     def reference(self) -> Trajectory:
@@ -58,10 +63,14 @@ class HoistPlan(Plan):
 
     def golden_trace(self, target: str, files: Files) -> Trajectory:
         """The trip upwards."""
+        from plcgen.check.hoist import nominal_trace
+
         return nominal_trace(self.subject(target, files))
 
     def subject(self, target: str, files: Files) -> Subject:
         """The program and the names under which verification finds its block and instance."""
+        from plcgen.check.hoist import Subject
+
         names = block_names(self.job, target)
         block, instance = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
         return Subject(load(target, files), block, instance, hoist_model(self))

@@ -8,15 +8,15 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Protocol
 
 from plcgen.errors import PlcgenError
-from plcgen.plc.core import Area, Program
-from plcgen.plc.engine import Bytes, Engine, Site
 
 if TYPE_CHECKING:
     import numpy as np
 
+    from plcgen.plc.core import Area, Program
+    from plcgen.plc.engine import Bytes, Site
+
 VARIABLE, PLAIN, FAST = "PLCGEN_ENGINE", "plain", "fast"
 ENGINES = (PLAIN, FAST)
-Memory = dict[Area | str, Bytes]
 Run = Callable[..., Any]
 
 
@@ -83,12 +83,12 @@ def chosen() -> str:
 
 def start(
     program: Program,
-    memory: Memory,
+    memory: dict[Area | str, Bytes],
     note: Callable[[str, Site], None],
     temp_fill: int,
     function_error: float,
     services: Mapping[str, Callable[..., Any]],
-) -> tuple[Runner, Memory]:
+) -> tuple[Runner, dict[Area | str, Bytes]]:
     """An engine, and the memory that it works on: the compiled one moves it into one piece."""
     if chosen() == FAST:
         from plcgen.plc.fast.encode import UnsuitableError
@@ -100,4 +100,6 @@ def start(
             pass
         else:
             return runner, runner.views
+    from plcgen.plc.engine import Engine
+
     return Engine(program, memory, note, temp_fill, function_error, services), memory
