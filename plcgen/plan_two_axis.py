@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -164,13 +164,9 @@ def _move_model(job: Job, wanted: Move, move: TwoAxisMove) -> MoveModel:
         at = run.at_time(np.clip(times, 0.0, run.duration))
         return at.travel * ppu, at.velocity * ppu, at.acceleration * ppu
 
-    def rest(velocity: float, acceleration: float) -> Reference:
+    def stop(velocity: float, acceleration: float) -> Reference:
         phases = stop_phases(velocity, acceleration, keys.max_acceleration * ppu, keys.jerk * ppu, 0)
         return Reference(phases, velocity, acceleration)
-
-    def stop(velocity: float, acceleration: float) -> Callable[[np.ndarray], np.ndarray]:
-        law = rest(velocity, acceleration)
-        return lambda times: law.at_time(np.minimum(times, law.duration)).travel
 
     return MoveModel(
         ordered=ordered(keys, wanted),
@@ -180,7 +176,6 @@ def _move_model(job: Job, wanted: Move, move: TwoAxisMove) -> MoveModel:
         fastest=move.fastest.duration,
         motion=motion,
         stop=stop,
-        stop_duration=lambda velocity, acceleration: rest(velocity, acceleration).duration,
         velocity=keys.max_velocity * ppu,
         acceleration=keys.max_acceleration * ppu,
         jerk=keys.jerk * ppu,

@@ -197,9 +197,8 @@ def _expected_stop(model: TwoAxisModel, move: MoveModel, at: float) -> tuple[flo
     exact, speed, acceleration = move.motion(begins)
     states = [(max(0.0, float(v)), float(a)) for v, a in zip(speed, acceleration, strict=True)]
     laws = [move.stop(*state) for state in states]
-    ways = [float(law(np.array([np.inf]))[0]) for law in laws]
-    rests = [place + way < move.lead_pulses - 1 for place, way in zip(exact, ways, strict=True)]
-    return max(move.stop_duration(*state) for state in states), all(rests)
+    rests = [place + law.travel < move.lead_pulses - 1 for place, law in zip(exact, laws, strict=True)]
+    return max(law.duration for law in laws), all(rests)
 
 
 def _off_the_stop(model: TwoAxisModel, move: MoveModel, lead: Samples) -> float:
@@ -212,14 +211,13 @@ def _off_the_stop(model: TwoAxisModel, move: MoveModel, lead: Samples) -> float:
     parted = np.flatnonzero(np.abs(lead[1:last] - exact[1:last]) > position_bound(move))
     for begin in range(int(parted[0]) if len(parted) else last - 1, 0, -1):
         law = move.stop(float(speed[begin]), float(acceleration[begin]))
-
-        def off(samples: Samples, begin: int = begin, law: Callable[[Samples], Samples] = law) -> float:
-            stop = np.minimum(lead[begin] + law((samples - begin) * period), move.lead_pulses)
-            return float(np.abs(lead[samples] - stop).max())
-
-        # Most begins are worse in their last sample than another in all.
-        if off(np.array([len(lead) - 1])) < worst:
-            worst = min(worst, off(np.arange(begin, len(lead))))
+        times = np.arange(len(lead) - begin) * period
+        # Most begins are worse in their last sample, at rest, than another in all.
+        rest = min(lead[begin] + law.travel, move.lead_pulses)
+        if times[-1] >= law.duration and abs(lead[-1] - rest) >= worst:
+            continue
+        stop = np.minimum(lead[begin] + law.at_time(times).travel, move.lead_pulses)
+        worst = min(worst, float(np.abs(lead[begin:] - stop).max()))
     return float(worst)
 
 

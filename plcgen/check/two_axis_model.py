@@ -4,11 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
 Samples = NDArray[Any]
+
+
+class StopLaw(Protocol):
+    """A motion to rest, at rest behind its end: time in s, way in all, and by each time."""
+
+    @property
+    def duration(self) -> float: ...
+    @property
+    def travel(self) -> float: ...
+    def at_time(self, time: Samples) -> StopMotion: ...
+
+
+class StopMotion(Protocol):
+    @property
+    def travel(self) -> Samples: ...
 
 
 @dataclass(frozen=True)
@@ -17,7 +32,7 @@ class MoveModel:
 
     `motion(t)` of the profile that is run are pulses, pulses/s and pulses/s2 of the leading axis, without sign, at
     instants in s; in `samples` whole sample periods, or as fast as can be in a table. `fastest` is the duration of the
-    shortest profile in s; `stop(v, a)(t)` are the pulses of a stop, and `stop_duration(v, a)` its time in s.
+    shortest profile in s; `stop(v, a)` is the law of a stop from that speed, in pulses.
     """
 
     ordered: tuple[int, int]
@@ -26,8 +41,7 @@ class MoveModel:
     samples: int
     fastest: float
     motion: Callable[[Samples], tuple[Samples, Samples, Samples]]
-    stop: Callable[[float, float], Callable[[Samples], Samples]]
-    stop_duration: Callable[[float, float], float]
+    stop: Callable[[float, float], StopLaw]
     velocity: float  # limits of the leading axis, in pulses and s
     acceleration: float
     jerk: float

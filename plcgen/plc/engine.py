@@ -130,7 +130,7 @@ class Engine:
     def closed_loop(self, _name: str, _instance: Bytes, _places: Sequence[int]) -> None:
         """Here Python is in between anyway."""
 
-    def scan_loop(self, _name: str, _views: Sequence[Bytes], _watched: int, _costs: Sequence[float]) -> None:
+    def event_loop(self, *_ignored: object) -> None:
         """Here Python is in between anyway."""
 
     def source_of(self, name: str) -> str:

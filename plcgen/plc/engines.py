@@ -37,17 +37,24 @@ class ClosedLoop(Loop, Protocol):
     def run(self, times: np.ndarray, drive: np.ndarray, late: np.ndarray, phases: int, passing: int) -> int: ...
 
 
-class ScanLoop(Loop, Protocol):
-    """See `fast.scan_loop`."""
+class EventLoop(Loop, Protocol):
+    """See `fast.event_loop`."""
 
-    longest: float
+    clock: np.ndarray
+    tick: np.ndarray
+    record: np.ndarray
+    times: np.ndarray
+    out: np.ndarray
+    longest: np.ndarray
+    saved: np.ndarray
 
-    @property
-    def is_whole(self) -> bool: ...
+    def entry(self, block: str) -> int: ...
 
-    def run(
-        self, ports: Sequence[tuple[int, int, int, int]], enabled: int, clock: tuple[int, int, int], most: int
-    ) -> int: ...
+    def put_channel(self, number: int, has_event: bool, ends: Sequence[float], current: int) -> None: ...
+
+    def progress(self, number: int) -> tuple[bool, int]: ...
+
+    def run(self, late: np.ndarray) -> None: ...
 
 
 class Runner(Protocol):
@@ -60,8 +67,15 @@ class Runner(Protocol):
     def adopt(self, data: bytes) -> Bytes:
         """Memory for another instance."""
 
-    def scan_loop(self, name: str, views: Sequence[Bytes], watched: int, costs: Sequence[float]) -> ScanLoop | None:
-        """Scans of a SMART between which nothing happens; None where there is no quicker way than one by one."""
+    def event_loop(
+        self,
+        main: str,
+        views: Sequence[Bytes],
+        watched: int,
+        costs: Sequence[float],
+        ports: Sequence[tuple[int, ...]],
+    ) -> EventLoop | None:
+        """Scans of a SMART; None where there is no quicker way than one by one. See `fast.memory`."""
 
     def take_counts(self) -> list[int]:
         """See `Engine.take_counts`."""

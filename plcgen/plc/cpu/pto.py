@@ -7,10 +7,10 @@ time, so N pulses from f0 to f1 last 2 N / (f0 + f1). Pulse k counts when its pe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from struct import unpack_from
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +47,7 @@ PORTS = {
 }
 
 
-@dataclass(frozen=True)
-class Segment:
+class Segment(NamedTuple):
     """Pulses that were sent. Segments of one table or of one load have the same number `train`.
 
     `direction` is the bit of the direction output when the train began, None without such an output. `truncated_at` is
@@ -153,9 +152,29 @@ class Channel:
         return self._waiting is not None
 
     @property
-    def shown(self) -> tuple[int, int, int, int]:
-        """Bytes of special memory for status and segment, and what they say up to the boundary."""
-        return self._status, self._segment, self._idle, self._number
+    def running(self) -> tuple[Sequence[Segment], int] | None:
+        """Segments of the running table and which of them runs; none when idle, None when there is more to it."""
+        if self._waiting is not None or self._stop_at is not None or self._flags:
+            return None
+        return (self.segments[self._first :], self._current - self._first) if self.busy else ((), 0)
+
+    def take_over(self, now: int, started: Sequence[Segment], tables: Sequence[int], busy: bool, current: int) -> None:
+        """Time has gone on to `now`: segments of tables that were started since, and where in `started` each begins;
+        whether the last train still runs, and which of its segments.
+        """
+        before = len(self.segments)
+        self.segments.extend(started)
+        if tables:
+            self._first, self._multi = before + tables[-1], True
+            self._trains += len(tables)
+            self._seen_direction = started[-1].direction
+        self.busy, self._current, self._now = busy, self._first + current, now
+        self._look()
+
+    @property
+    def trains(self) -> int:
+        """Trains so far."""
+        return self._trains
 
     @property
     def next_change(self) -> float:
@@ -264,7 +283,7 @@ class Channel:
         left = sum(segment.pulses for segment in self.segments[self._first :])
         left += self._waiting[1] if self._waiting else 0
         kept = [segment for segment in self.segments[self._first :] if segment.start < self._now]
-        kept = [replace(s, truncated_at=float(self._now)) if s.end > self._now else s for s in kept]
+        kept = [s._replace(truncated_at=float(self._now)) if s.end > self._now else s for s in kept]
         self.segments[self._first :] = kept
         self.lost += left - sum(segment.sent for segment in kept)
         self.busy, self._waiting, self._stop_at = False, None, None

@@ -16,8 +16,8 @@ from typing import Any, ClassVar
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Cell, Compute, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
+from plcgen.plc.cpu.smart_loop import LoopedScans, punctual
 from plcgen.plc.engine import Bytes
-from plcgen.plc.engines import ScanLoop
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
 from plcgen.plc.stl.smart_costs import COSTS, SPEND
@@ -106,7 +106,7 @@ class _Processor(Machine):
         return {"pointed": pointed, **{f"service_{name}": given for name, given in self._given.items()}}
 
 
-class Smart:
+class Smart(LoopedScans):
     """A CPU in RUN.
 
     `lateness(n)` are the us that tick n (from 0) of a timed interrupt comes late. In `blocked` intervals [start, end)
@@ -144,7 +144,7 @@ class Smart:
         self.time_us = 0
         self.running = True
         self.violations: list[Violation] = []
-        self._lateness = lateness or (lambda _tick: 0)
+        self._lateness = lateness or punctual
         self._blocked = _merged(blocked)
         self._processor = _Processor(program, temp_fill, self._services())
         self.memory = self._processor.memory
@@ -152,7 +152,7 @@ class Smart:
         self._attached: dict[int, str] = {}
         self._ticks: dict[int, _Ticks] = {}
         self._queue: list[_Request] = []
-        self._loops: dict[int, ScanLoop | None] = {}
+        self._loops = {}
         self._arrivals = 0
         self._enabled = False
         self._scans = 0
@@ -160,6 +160,7 @@ class Smart:
         given = directions or {}
         self.channels: Mapping[str, Channel] = {name: self._channel(name, given.get(name)) for name in PORTS}
         self._channels = tuple(self.channels.values())
+        self._direction_bits = {name: self._cell(output, BOOL).bit for name, output in given.items()}
         self._directed = tuple(channel for channel in self._channels if channel.has_direction)
         self._events = tuple((PORTS[name].event, channel) for name, channel in self.channels.items())
         self._refresh()
@@ -198,13 +199,6 @@ class Smart:
         self._advance(self._next_scan)
         self._refresh()
 
-    def scans(self, most: int, watched: int) -> int:
-        """Up to `most` scans, until a byte of V memory has another value or something happens. Returns how many."""
-        rows = self._quiet_scans(most, watched)
-        if not rows:
-            self.scan()
-        return rows or 1
-
     def run_until(self, time_us: int) -> None:
         """Scans and interrupts up to and with a time; the last scan may be on the way then."""
         while self._next_scan <= time_us:
@@ -239,49 +233,6 @@ class Smart:
         self._next_scan += self.scan_us
         self._serve()
 
-    def _quiet_scans(self, most: int, watched: int) -> int:
-        """Scans in which nothing happens but MAIN, at once; 0 where there is none, or no quick way."""
-        loop = self._loop_watching(watched)
-        if loop is None or not self.running:
-            return 0
-        quiet_until = min(self._next_moment(), *(channel.boundary for channel in self._channels))
-        most = min(most, (math.ceil(quiet_until) - 1 - self._next_scan) // self.scan_us)
-        if most < 1:
-            return 0
-        ports = [channel.shown for channel in self._channels]
-        enabled = INTERRUPTS_ENABLED if self._enabled else 0
-        rows = loop.run(ports, enabled, (self._scans, self._next_scan, self.scan_us), most)
-        if rows:
-            self._end_quiet_scans(loop, rows - 1)
-        return rows
-
-    def _end_quiet_scans(self, loop: ScanLoop, before: int) -> None:
-        """The last scan, after those `before` it, may have done what Python has to see to."""
-        self._scans += before
-        self._next_scan += before * self.scan_us
-        self.time_us = self._next_scan
-        self._note_run_time(self._cycle, loop.longest)
-        if loop.is_whole:
-            self._watch_directions()
-            self._main_is_over()
-            self.time_us = self._next_scan
-        else:
-            self._processor.scan = self._scans
-            self._guarded(self._cycle, self._processor.settle, loop)
-            self._main_is_over()
-            self._advance(self._next_scan)
-            self._refresh()
-
-    def _loop_watching(self, byte: int) -> ScanLoop | None:
-        if self.arguments or self._cycle not in self.program.functions:
-            return None
-        if byte not in self._loops:
-            views = (self._special, self.memory[Area.OUTPUTS], self.memory[PHYSICAL_OUTPUTS], self.memory[V])
-            self._loops[byte] = self._processor.engine.scan_loop(
-                self._cycle, views, byte, self._costs if self._is_timed else ()
-            )
-        return self._loops[byte]
-
     def _outputs(self) -> None:
         """The end of a scan: the image goes to the outputs."""
         self.memory[PHYSICAL_OUTPUTS][:] = self.memory[Area.OUTPUTS]
@@ -306,7 +257,7 @@ class Smart:
             self._watch_directions()
 
     def _note_run_time(self, name: str, microseconds: float) -> None:
-        if self._is_timed:
+        if self._is_timed and microseconds:
             self.run_times[name] = max(microseconds, self.run_times.get(name, 0.0))
 
     def _refresh(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -136,6 +136,12 @@ class FastEngine:
         """Where a block begins that takes and returns nothing but its instance; None for another."""
         function, entry = self._program.functions[name], self._entries[name]
         return None if function.frame_given or entry.parameters or entry.results else entry.start
+
+    def requests_of(self, operator: str) -> Iterator[tuple[int, int, int]]:
+        """Rows in which Python evaluates an operator on one operand, and the slots of operand and result."""
+        for row, request in self._requests.items():
+            if request.operator.name == operator:
+                yield row, request.slots[0], request.result
 
     def _give_frame(self, entry: Entry, frame: bytes) -> None:
         self._memory[entry.frame : entry.frame + len(frame)] = np.frombuffer(frame, np.uint8)

@@ -12,7 +12,7 @@ from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Site
 from plcgen.plc.fast.closed_loop import PHASE_AT, SETPOINT_AT, TRAVEL_AT, VELOCITY_AT, ClosedLoop
 from plcgen.plc.fast.engine import FastEngine
-from plcgen.plc.fast.scan_loop import ScanLoop
+from plcgen.plc.fast.event_loop import EventLoop
 
 ROOM = 1 << 17
 """Bytes behind the areas: frames, constants, instances that come later."""
@@ -62,15 +62,25 @@ class FastRunner:
             return None
         return ClosedLoop(self.engine, entry, self._first_byte(instance), len(instance), fields)
 
-    def scan_loop(self, name: str, views: Sequence[Bytes], watched: int, costs: Sequence[float]) -> ScanLoop | None:
-        """Scans of a block without Python; views of special memory, of the image of the outputs, of the outputs, and
-        of the memory in which the byte is that is watched.
+    def event_loop(
+        self,
+        main: str,
+        views: Sequence[Bytes],
+        watched: int,
+        costs: Sequence[float],
+        ports: Sequence[tuple[int, ...]],
+    ) -> EventLoop | None:
+        """Scans of a SMART: views of special memory, of the image of the outputs, of the outputs, of V memory and of
+        the accumulators; the byte of V memory that is watched; the prices of what the program counts; for each pulse
+        output the bytes of special memory for status, control, table and segment, and the bit of its direction or -1.
         """
-        entry = self.engine.entry(name)
+        entry = self.engine.entry(main)
         if entry is None:
             return None
-        special, image, outputs, memory = map(self._first_byte, views)
-        return ScanLoop(self.engine, entry, (special, image, outputs, len(views[2]), memory + watched), costs)
+        special, image, outputs, tables, accumulators = map(self._first_byte, views)
+        ends = tables + len(views[3])
+        places = (special, image, outputs, len(views[2]), tables + watched, tables, ends, accumulators)
+        return EventLoop(self.engine, entry, places, costs, ports)
 
     def _first_byte(self, view: Bytes) -> int:
         address: int = np.frombuffer(view, np.uint8).__array_interface__["data"][0]

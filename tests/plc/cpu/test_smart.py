@@ -264,8 +264,9 @@ def test_outputs_follow_their_image_at_the_end_of_the_scan(smart: Make) -> None:
     assert physical[0] == 0x30
 
 
-# Everything that ends a row of quiet scans: the byte that is watched (VB9), outputs by the image and at once, trains
-# and their ends, ticks, events, an overflow now and then, DISI and STOP.
+# Everything that ends a loop: the byte that is watched (VB9), outputs by the image and at once, single trains, ends
+# that are events, an overflow now and then, DISI and STOP. Profile tables go their usual way, mostly: every {every}
+# ticks Q0.1 gets one, which may come too early, or have a segment that is too short, or none.
 BUSY = {
     "OB1": """
         LD     SM0.1
@@ -275,6 +276,14 @@ BUSY = {
         ENI
         MOVW   100, SMW68
         MOVD   {pulses}, SMD72
+        MOVW   600, SMW178
+        MOVB   {segments}, VB600
+        MOVD   {hertz}, VD601
+        MOVD   90000, VD605
+        MOVD   {short}, VD609
+        MOVD   90000, VD613
+        MOVD   {hertz}, VD617
+        MOVD   {long}, VD621
         ----
         LD     SM0.0
         INCW   VW0
@@ -286,7 +295,7 @@ BUSY = {
         ----
         LD     SM0.0
         MOVW   VW0, VW4
-        SRW    VW4, {slow}
+        /I     {slow}, VW4
         MOVB   VB5, VB9
         ----
         LDW=   VW0, {train}
@@ -308,6 +317,19 @@ BUSY = {
     "INT0": """
         LD     SM0.0
         INCW   VW30
+        MOVD   VD30, AC0
+        INCW   VW34
+        ----
+        LDW=   VW34, {every}
+        MOVW   0, VW34
+        MOVB   16#E0, SMB77
+        PLS    1
+        ----
+        LDW>=  VW30, {turned}
+        =I     Q0.5
+        ----
+        LDW=   VW30, {detached}
+        DTCH   10
         """,
     "INT1": """
         LD     SM0.0
@@ -316,19 +338,27 @@ BUSY = {
 }
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(60))
 def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba", reason="the fast engine needs Numba")
     monkeypatch.setenv("PLCGEN_ENGINE", "fast")
     random = Random(seed)
-    numbers = {name: random.randrange(2, 250) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
-    numbers |= {"period": random.randrange(1, 256), "event": random.choice([19, 20])}
-    numbers |= {"pulses": random.randrange(1, 3000), "slow": random.randrange(2, 8)}
-    program = lower(
-        parse(SourceText("busy.awl", smart_text(**{n: t.format(**numbers) for n, t in BUSY.items()}))), timed=True
-    )
-    scan_us, direction = random.choice([900, 5000]), random.choice(["Q0.4", "Q0.5"])
-    single, quick = (Smart(program, scan_us, directions={"Q0.0": direction}) for _ in range(2))
+    numbers = {name: random.randrange(2, 400) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
+    numbers |= {"period": random.choice([1, 5, 10, 200]), "event": random.choice([19, 20])}
+    numbers |= {"pulses": random.randrange(1, 3000), "slow": random.choice([3, 10, 50])}
+    numbers |= {"segments": random.choice([0, 1, 2, 2, 2, 2]), "hertz": random.choice([0, 30_000, 99_000])}
+    numbers |= {"short": random.choice([30, 60, 100, 1000]), "long": random.choice([40, 100, 20_000])}
+    numbers |= {
+        "every": random.randrange(1, 9),
+        "turned": random.randrange(400),
+        "detached": random.choice([5, 50, 10_000]),
+    }
+    text = smart_text(**{name: body.format(**numbers) for name, body in BUSY.items()})
+    program = lower(parse(SourceText("busy.awl", text)), timed=True)
+    scan_us, ways = random.choice([900, 5000]), random.choice([("Q0.4", "Q0.5"), ("Q0.5", "Q0.4")])
+    directions = dict(zip(("Q0.0", "Q0.1"), ways, strict=True))
+    lateness = random.choice([None, lambda tick: tick * 7919 % 2300])
+    single, quick = (Smart(program, scan_us, lateness, directions=directions) for _ in range(2))
     done = 0
     while done < 260:
         batch = random.randrange(1, 60)
@@ -340,6 +370,34 @@ def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pyt
         done += batch
         assert observed(quick) == observed(single), (seed, done, numbers)
     assert len(quick._loops) == 1
+
+
+def test_ticks_that_start_tables_need_no_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """50 scans with 25 ticks, each of which starts 1000 pulses at 100 kHz, in one go."""
+    pytest.importorskip("numba", reason="the fast engine needs Numba")
+    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+    prepare = """
+        LD     SM0.1
+        MOVB   10, SMB34
+        ATCH   INT0, 10
+        ENI
+        MOVW   600, SMW168
+        MOVB   1, VB600
+        MOVD   100000, VD601
+        MOVD   100000, VD605
+        MOVD   900, VD609
+        MOVB   16#E0, SMB67
+        """
+    program = lower(parse(SourceText("a.awl", smart_text(OB1=prepare, INT0="LD SM0.0\nPLS 0"))))
+    machine = Smart(program)
+    machine.scan()
+    machine._processor.engine.engine._serve = None  # type: ignore[attr-defined]
+    assert machine.scans(50, watched=0) == 50
+    segments = machine.channels["Q0.0"].segments
+    assert [(s.start, s.end, s.pulses) for s in segments] == [
+        (10_000.0 * n, 10_000.0 * n + 9000, 900) for n in range(1, 26)
+    ]
+    assert [s.train for s in segments] == list(range(25))
 
 
 def test_scans_stop_where_the_watched_byte_changes(smart: Make) -> None:
