@@ -158,23 +158,24 @@ class Channel:
             return None
         return (self.segments[self._first :], self._current - self._first) if self.busy else ((), 0)
 
-    def take_over(self, now: int, started: Sequence[Segment], tables: Sequence[int], busy: bool, current: int) -> None:
-        """Time has gone on to `now`: segments of tables that were started since, and where in `started` each begins;
-        whether the last train still runs, and which of its segments.
+    def take_over(
+        self, now: int, started: NDArray[np.int64], times: NDArray[np.float64], busy: bool, current: int
+    ) -> None:
+        """Time has gone on to `now`, and tables were started since. A row is a segment: whether it is the first of its
+        table, pulses, first and last frequency, the bit of the direction or -1; and when it starts and ends. `busy` is
+        whether the last train still runs, `current` which of its segments.
         """
-        before = len(self.segments)
-        self.segments.extend(started)
-        if tables:
-            self._first, self._multi = before + tables[-1], True
-            self._trains += len(tables)
-            self._seen_direction = started[-1].direction
+        if len(started):
+            firsts = np.flatnonzero(started[:, 0])
+            trains = self._trains - 1 + np.cumsum(started[:, 0])
+            ways = [None if bit < 0 else bool(bit) for bit in started[:, 4].tolist()]
+            columns = (trains, *times.T, *started[:, 1:4].T)
+            self._first, self._multi = len(self.segments) + int(firsts[-1]), True
+            self.segments.extend(map(Segment, *(column.tolist() for column in columns), ways))
+            self._trains += len(firsts)
+            self._seen_direction = ways[-1]
         self.busy, self._current, self._now = busy, self._first + current, now
         self._look()
-
-    @property
-    def trains(self) -> int:
-        """Trains so far."""
-        return self._trains
 
     @property
     def next_change(self) -> float:

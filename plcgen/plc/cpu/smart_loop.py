@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from plcgen.plc.core import Area, Program
-from plcgen.plc.cpu.pto import PORTS, Channel, Segment
+from plcgen.plc.cpu.pto import PORTS, Channel
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import Machine
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, V
@@ -145,19 +145,10 @@ class LoopedScans(ABC):
             _, _, tick.nominal, tick.count, tick.due = loop.tick.tolist()
             self._note_run_time(self._attached[event], float(loop.longest[1]))
         self._note_run_time(self._cycle, float(loop.longest[0]))
-        started: list[list[Segment]] = [[] for _ in self._channels]
-        tables: list[list[int]] = [[] for _ in self._channels]
-        spans = loop.times[:recorded].tolist()
-        for row, (start, end) in zip(loop.record[:recorded].tolist(), spans, strict=True):
-            number, is_first, pulses, first, last, bit = row
-            if is_first:
-                tables[number].append(len(started[number]))
-            train = self._channels[number].trains + len(tables[number]) - 1
-            direction = None if bit < 0 else bool(bit)
-            started[number].append(Segment(train, start, end, pulses, first, last, direction))
+        record, times = loop.record[:recorded], loop.times[:recorded]
         for number, channel in enumerate(self._channels):
-            busy, current = loop.progress(number)
-            channel.take_over(self.time_us, started[number], tables[number], busy, current)
+            own = record[:, 0] == number
+            channel.take_over(self.time_us, record[own, 1:], times[own], *loop.progress(number))
 
     def _go_on(self, loop: EventLoop, ended: int, place: int) -> None:
         """What is left of the last scan."""
