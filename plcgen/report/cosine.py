@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from plcgen.report.figures import (
 from plcgen.trajectory import Trajectory
 
 TIME = "time, s"
+MOST_LIMITS = 3.0
 Traces = dict[str, Trajectory]
 
 
@@ -38,16 +39,27 @@ def _motion(plan: CosinePlan, reference: Trajectory, traces: Traces, bands: tupl
     unit, limits, period = plan.job.length_unit, plan.job.cosine, plan.job.sample_period
     raw = moves_of(reference, "raw_velocity")
     before = by_move("before the average", OTHER, raw, bands, period)
-    jerk = by_move("before the average", OTHER, [_jerk(speed, period) for speed in raw], bands, period, stepped=True)
-    after = by_move("reference", REFERENCE, moves_of(reference, "jerk"), bands, period, stepped=True)
+    jerks = [_jerk(speed, period) for speed in raw]
+    jerk = by_move("before the average", OTHER, jerks, bands, period, stepped=True)
+    averaged = [_known(jerk) for jerk in moves_of(reference, "jerk")]
+    after = by_move("reference", REFERENCE, averaged, bands, period, stepped=True)
     speed = _both(plan, reference, "velocity", traces, "velocitySetpoint", bands)
     acceleration = _both(plan, reference, "acceleration", traces, "acceleration", bands)
     panels = (
         Panel(f"speed, {unit}/s", (*before, *speed), both_ways("max_velocity", limits.max_velocity)),
         Panel(f"acceleration, {unit}/s2", acceleration, both_ways("max_acceleration", limits.max_acceleration)),
-        Panel(f"jerk, {unit}/s3", (*jerk, *after), both_ways("jerk", limits.jerk)),
+        *_jerk_panels(f"jerk, {unit}/s3", jerk, after, limits.jerk, largest=max(np.abs(j).max() for j in jerks)),
     )
     return Figure("motion", "Before and after the moving average", TIME, panels, bands)
+
+
+def _jerk_panels(
+    title: str, before: Sequence[Line], after: Sequence[Line], limit: float, largest: float
+) -> tuple[Panel, ...]:
+    """Both in one panel, unless what comes before the average would leave nothing to see of what comes behind it."""
+    if largest <= MOST_LIMITS * limit:
+        return (Panel(title, (*before, *after), both_ways("jerk", limit)),)
+    return Panel(title, tuple(after), both_ways("jerk", limit)), Panel(title, tuple(before))
 
 
 def _both(
@@ -62,8 +74,13 @@ def _both(
 
 
 def _jerk(speed: Values, period: float) -> Values:
-    """Second differences; what leads into the first two samples is not known."""
-    return np.concatenate([np.zeros(min(2, len(speed))), np.diff(speed, 2) / period**2])
+    """Second differences."""
+    return _known(np.concatenate([np.zeros(min(2, len(speed))), np.diff(speed, 2) / period**2]))
+
+
+def _known(jerk: Values) -> Values:
+    """What leads into the first two samples is not known."""
+    return np.concatenate([np.zeros(min(2, len(jerk))), jerk[2:]])
 
 
 def _errors(plan: CosinePlan, reference: Trajectory, traces: Traces, bands: tuple[Band, ...]) -> Figure:

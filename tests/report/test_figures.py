@@ -76,13 +76,14 @@ def test_the_path_ends_where_the_moves_end() -> None:
 
 
 def test_the_average_takes_the_jump_out_of_the_jerk() -> None:
-    _, figures = drawn("half-sine")
-    jerk = figures["motion"].panels[2]
-    raw, averaged = (
-        max(np.abs(curve.y).max() for curve in jerk.lines if curve.name == name)
-        for name in ("before the average", "reference")
-    )
+    """Each has a panel then; a ramp, whose jerk keeps the limit by itself, shows both in one."""
+    plan, figures = drawn("half-sine")
+    averaged, raw = (max(np.abs(curve.y).max() for curve in panel.lines) for panel in figures["motion"].panels[2:])
     assert raw > 5 * averaged
+    assert averaged <= 1.01 * plan.job.cosine.jerk
+    _, figures = drawn("ramps")
+    (jerk,) = figures["motion"].panels[2:]
+    assert {curve.name for curve in jerk.lines} == {"before the average", "reference"}
 
 
 def test_thinning_keeps_every_peak() -> None:
