@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Cell, Compute, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
-from plcgen.plc.cpu.smart_loop import LoopedScans, punctual
+from plcgen.plc.cpu.smart_loop import INTERRUPTS_ENABLED, LoopedScans, punctual
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
@@ -42,8 +42,6 @@ _NEVER = 1 << 62  # us
 
 ALWAYS_ON, FIRST_SCAN, CLOCK_60S, CLOCK_1S, CLOCK_SCAN = 1, 2, 16, 32, 64
 """Bits of SMB0."""
-INTERRUPTS_ENABLED = 16
-"""Bit of SMB4."""
 
 
 class _StopMode(Exception):  # noqa: N818 - no error: the program asked for it

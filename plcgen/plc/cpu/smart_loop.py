@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 TICKS_AHEAD = 1000
 ON_TIME = np.zeros(TICKS_AHEAD, np.int64)
 QUIET = -1
+"""Nothing is left to do in a block."""
 WHOLE, IN_MAIN, IN_INTERRUPT, _BETWEEN = range(4)
 """Where a loop ended, see `fast.event_loop`."""
 INTERRUPTS_ENABLED = 16
@@ -104,8 +105,9 @@ class LoopedScans(ABC):
     def _looped(self, loop: EventLoop, most: int) -> int:
         """Scans at once; 0 when the next one is not for a loop."""
         ticks = next(iter(self._ticks.items()), None)
+        waits = bool(self._queue or self._blocked) or self.time_us != self._next_scan
         has_more = len(self._ticks) > 1 or (ticks is not None and not self._enabled)
-        if not self.running or self._blocked or self._queue or has_more or not self._hand_over(loop):
+        if not self.running or waits or has_more or not self._hand_over(loop):
             return 0
         enabled = INTERRUPTS_ENABLED if self._enabled else 0
         loop.clock[:] = self._scans, self._next_scan, self.scan_us, self.time_us, enabled, most
