@@ -119,6 +119,8 @@ class _Facts:
 
 def _same(one: Operand, other: Operand | None) -> bool:
     """Equal literals differ where 0.0 and -0.0 do."""
+    if one is other:
+        return True
     if one != other:
         return False
     return not isinstance(one, Literal) or repr(one.value) == repr(other.value)  # type: ignore[union-attr]
