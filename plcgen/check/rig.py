@@ -160,7 +160,7 @@ class Rig(Instance):
             self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
         )
         self._late: list[float] = []
-        """How late in s the next calls come, as far as that was drawn."""
+        """How late the next calls come, in periods, as far as that was drawn."""
         self._loop = self._closed_loop()
 
     def force(self, **measurements: float) -> None:
