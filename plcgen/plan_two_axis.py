@@ -88,7 +88,7 @@ class TwoAxisPlan(Plan):
         return nominal_trace(self.subject(files))
 
     def subject(self, files: Files) -> Subject:
-        return Subject(load(self.job, files), two_axis_model(self), load(self.job, files, timed=True))
+        return Subject(load(self.job, files), two_axis_model(self), lambda: load(self.job, files, timed=True))
 
 
 def prepare(job: Job) -> TwoAxisPlan:

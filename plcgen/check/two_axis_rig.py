@@ -23,11 +23,11 @@ SETTLED = 3
 
 @dataclass(frozen=True)
 class Subject:
-    """What is verified: a program and the model to hold it against; `timed` is the program that counts its run time."""
+    """What is verified: a program and the model to hold it against. `timed` makes one that counts its run time."""
 
     program: Program
     model: TwoAxisModel
-    timed: Program
+    timed: Callable[[], Program]
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Table:
         timed: bool = False,
     ) -> None:
         """`retained` is what every byte of order and status holds when the power comes."""
-        program = subject.timed if timed else subject.program
+        program = subject.timed() if timed else subject.program
         self.model = subject.model
         self._variables: dict[str, Variable] = {}
         directions = dict(zip(self.model.outputs, self.model.directions, strict=True))

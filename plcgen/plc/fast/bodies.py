@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from plcgen.plc.operators import Operator
 from plcgen.plc.types import BOOL, LINT, REAL, Elementary, Type
@@ -64,6 +65,7 @@ def kind_of(kind: Type) -> str | None:
     return "i" if kind.is_integral else "f"
 
 
+@lru_cache(maxsize=4096)
 def body_of(operator: Operator) -> tuple[Body, tuple[float, ...]] | None:
     """The body of an operator and the numbers it needs; None when it has none."""
     kinds = [kind_of(kind) for kind in (*operator.operands, operator.result)]
