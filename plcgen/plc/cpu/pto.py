@@ -189,7 +189,7 @@ class Channel:
     def advance(self, now: int) -> bool:
         """The time is `now`; whether a train is over since."""
         self._now = now
-        if now < self.boundary:
+        if now < self._boundary:
             return False
         is_over = self._end <= now
         if is_over:
@@ -211,14 +211,14 @@ class Channel:
     def _look(self) -> None:
         """What special memory says from now up to the next boundary between segments."""
         if not self.busy:
-            self.boundary, self._number, self._idle = math.inf, 0, IDLE
+            self._boundary, self._number, self._idle = math.inf, 0, IDLE
             return
         last = len(self.segments) - 1
         while self._current < last and self.segments[self._current].end <= self._now:
             self._current += 1
         current = min(self._current, last)
         self._number, self._idle = current - self._first + 1, 0
-        self.boundary = self._end if current == last else min(self._end, self.segments[current].end)
+        self._boundary = self._end if current == last else min(self._end, self.segments[current].end)
 
     def refresh(self, now: int) -> None:
         """Status and segment number in special memory, before any program text runs."""

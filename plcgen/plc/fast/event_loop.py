@@ -38,7 +38,7 @@ OF, IS_FIRST, PULSES, FIRST_HZ, LAST_HZ, BIT, SENT = range(7)
 MOST_SEGMENTS, LONGEST_TABLE = 8192, 255
 ENTRY_BYTES = 12
 STARTS, IDLE, MOST_HZ, MOST_PULSES, SHORTEST_US = 0xE0, 0x80, 100_000, 2**31 - 1, 500
-"""As in `cpu.pto`, which Numba cannot import from: the bits of ENABLE, PULSES and TABLE, and so on."""
+"""As in `cpu.pto`: ENABLE, PULSES and TABLE, and so on. Numba would keep old ones if they came from there."""
 
 compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", nogil=True)
 

@@ -8,6 +8,7 @@ from random import Random
 import pytest
 
 from plcgen.errors import Fault, PlcgenError
+from plcgen.plc.cpu import pto, smart_loop
 from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.lowering import lower
@@ -398,6 +399,21 @@ def test_ticks_that_start_tables_need_no_python(monkeypatch: pytest.MonkeyPatch)
         (10_000.0 * n, 10_000.0 * n + 9000, 900) for n in range(1, 26)
     ]
     assert [s.train for s in segments] == list(range(25))
+
+
+def test_the_loop_has_the_numbers_of_the_pulse_outputs() -> None:
+    pytest.importorskip("numba", reason="the fast engine needs Numba")
+    from plcgen.plc.fast import event_loop, vm
+
+    assert event_loop.STARTS == pto.ENABLE | pto.PULSES | pto.TABLE
+    for name in ("IDLE", "MOST_HZ", "SHORTEST_US", "ENTRY_BYTES"):
+        assert getattr(event_loop, name) == getattr(pto, name), name
+    assert (vm.QUIET, event_loop.WHOLE, event_loop.IN_MAIN, event_loop.IN_INTERRUPT) == (
+        smart_loop.QUIET,
+        smart_loop.WHOLE,
+        smart_loop.IN_MAIN,
+        smart_loop.IN_INTERRUPT,
+    )
 
 
 def test_scans_stop_where_the_watched_byte_changes(smart: Make) -> None:
