@@ -22,6 +22,7 @@ from typing import Any
 
 import pytest
 
+from plcgen.plc import engines
 from plcgen.plc.machine import Machine
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.s7_lowering import lower
@@ -79,16 +80,26 @@ def differences(machine: Machine, foreign: dict[str, bytes], number: int) -> lis
     return found
 
 
+@pytest.fixture
+def engine() -> None:
+    """Here each test runs both engines against one run of the oracle, which takes longer than they do."""
+
+
 @pytest.mark.parametrize("batch", range(BATCHES))
-def test_random_programs_leave_the_same_memory(batch: int) -> None:
+def test_random_programs_leave_the_same_memory(batch: int, monkeypatch: pytest.MonkeyPatch) -> None:
     random = Random(batch)
     numbers = range(1, PROGRAMS + 1)
     texts = {number: program(random, number) for number in numbers}
     source = "".join(texts.values()) + calls(numbers)
     simulator = load(source)
     simulator.runCycle()
-    machine = Machine(lower(parse(SourceText("random.awl", source))))
-    machine.call("OB1")
     foreign = memory_of(simulator)
-    for number in numbers:
-        assert not differences(machine, foreign, number), texts[number]
+    lowered = lower(parse(SourceText("random.awl", source)))
+    for engine in engines.ENGINES:
+        if engine == engines.FAST:
+            pytest.importorskip("numba", reason="the fast engine needs Numba")
+        monkeypatch.setenv(engines.VARIABLE, engine)
+        machine = Machine(lowered)
+        machine.call("OB1")
+        for number in numbers:
+            assert not differences(machine, foreign, number), f"{engine}\n{texts[number]}"
