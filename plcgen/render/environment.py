@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
 
-from jinja2 import BaseLoader, Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BaseLoader, Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
+from jinja2.bccache import Bucket
 
 from plcgen.render.comments import padded
 from plcgen.render.files import template_folder
@@ -18,6 +20,25 @@ def column(value: object, width: int) -> str:
     return padded(str(value), width)
 
 
+class CompiledTemplates(FileSystemBytecodeCache):
+    """Templates compiled by earlier runs, by the digest of their text: compiling is a quarter of a quick command.
+
+    What cannot be kept is compiled again next time.
+    """
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        with suppress(OSError):
+            super().dump_bytecode(bucket)
+
+
+def _compiled(language: str) -> CompiledTemplates | None:
+    """In the user's folder for temporary files, if that is safe: a language has its own, as it has its own texts."""
+    try:
+        return CompiledTemplates(pattern=f"plcgen_{language}_%s.cache")
+    except (OSError, RuntimeError):
+        return None
+
+
 @cache
 def environment(language: str = ENGLISH) -> Environment:
     templates = Environment(
@@ -27,6 +48,7 @@ def environment(language: str = ENGLISH) -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         autoescape=False,
+        bytecode_cache=_compiled(language),
     )
     templates.filters["real"] = real_literal
     templates.filters["stl_real"] = stl_real_literal

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from jinja2 import StrictUndefined, TemplateSyntaxError, UndefinedError, nodes
+from jinja2 import DictLoader, StrictUndefined, TemplateSyntaxError, UndefinedError, nodes
 
 from plcgen.render.environment import column, environment, render
 from plcgen.render.files import template_folder
@@ -159,3 +160,40 @@ def hidden(text: ast.Constant) -> bool:
 def test_plc_text_in_python_is_found(code: str) -> None:
     assert any(hidden(text) for text in strings(f"x = {code}"))
     assert not any(hidden(text) for text in strings('"""speed := travel"""'))
+
+
+def kept_in(folder: Path) -> list[str]:
+    return [path.name for path in folder.rglob("plcgen_en_*.cache")]
+
+
+@pytest.fixture
+def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """An empty folder for temporary files, and no environment made yet."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    environment.cache_clear()
+    yield tmp_path
+    environment.cache_clear()
+
+
+def test_compiled_templates_are_kept_and_follow_the_text(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = {"a": "x := {{ x }};"}
+    monkeypatch.setattr("plcgen.render.environment._loader", lambda _language: DictLoader(texts))
+    assert render("a", {"x": 1}) == "x := 1;"
+    assert len(kept_in(fresh)) == 1
+    environment.cache_clear()
+    texts["a"] = "y := {{ x }};"
+    assert render("a", {"x": 2}) == "y := 2;"
+
+
+def test_a_folder_that_takes_no_files_is_no_obstacle(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_arguments: object, **_keywords: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    template = next(path.relative_to(template_folder()).as_posix() for path in TEMPLATES if path.suffix == ".scl")
+    monkeypatch.setattr("tempfile.NamedTemporaryFile", full)
+    environment().get_template(template)
+    assert not kept_in(fresh)
+    environment.cache_clear()
+    monkeypatch.setattr("tempfile.tempdir", str(fresh / "missing"))
+    environment().get_template(template)
+    assert environment().bytecode_cache is None
