@@ -145,7 +145,7 @@ def whole_milliseconds(seconds: float) -> float:
 class Table(BaseModel):
     """One table of the file. Unknown keys are refused; defaults of lengths are scaled to the length unit."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     @model_validator(mode="before")
     @classmethod

@@ -33,6 +33,24 @@ def _load(target: str, entries: tuple[tuple[str, bytes], ...]) -> Program:
     return scl.lower(*read_scl(target, dict(entries)))
 
 
+def load_smart(name: str, files: Mapping[str, bytes], timed: bool = False) -> Program:
+    """The joined file `name`.awl when it is there, else every block by itself; the latest ones are at hand.
+
+    `timed`: with what counts its run time.
+    """
+    joined = f"{name}.awl"
+    names = [joined] if joined in files else sorted(name for name in files if name.endswith(".awl"))
+    return _load_smart(tuple((name, files[name]) for name in names), timed)
+
+
+@lru_cache(maxsize=8)
+def _load_smart(entries: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
+    from plcgen.plc.stl.lowering import lower
+    from plcgen.plc.stl.parser import parse
+
+    return lower([block for name, data in entries for block in parse(decode_source(name, data))], timed=timed)
+
+
 def read_stl(files: Mapping[str, bytes]) -> list[StlBlock]:
     """The blocks of all STL sources; those of the example that calls the others come last."""
     from plcgen.plc.stl.s7_parser import parse

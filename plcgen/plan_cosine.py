@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import cycle
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plcgen.check.cosine import Subject, nominal_trace, verify_cosine
 from plcgen.check.cosine_model import Axis, Command, CosineModel, Motion, MoveModel, Ramp, RampModel
-from plcgen.check.cosine_smart_rig import SmartAxis
-from plcgen.check.rig import Instance
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.job import Job
 from plcgen.jobfile_cosine import CENTRED
-from plcgen.loading import load
+from plcgen.loading import load, load_smart
 from plcgen.plan import Comparison, Derivation, Files, Plan, Progress, Stretch
-from plcgen.plan_two_axis import import_check
-from plcgen.plan_two_axis import load as load_smart
-from plcgen.plc.core import Program
 from plcgen.profile.constants import ConstantGroup
 from plcgen.profile.cosine import Ramps, cosine_constants
 from plcgen.profile.cosine_comparison import comparisons
@@ -33,6 +28,10 @@ from plcgen.render.cosine_memory import layout, memory_map, refuse_what_does_not
 from plcgen.render.files import OutputFile
 from plcgen.targets import SMART
 from plcgen.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from plcgen.check.cosine import Subject
+
 
 TELLING_CYCLES = (1.0, 0.2, 5.0)
 """Of the sample period: at some of them each limit decides on the duration of a move."""
@@ -84,24 +83,42 @@ class CosinePlan(Plan):
     def verify(
         self, target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
+        from plcgen.check.cosine import verify_cosine
+
         found = verify_cosine(self.subject(target, files), progress, fail_fast)
         return TargetVerdict((*self._imported(target, files), *found.checks))
 
     def _imported(self, target: str, files: Files) -> tuple[Check, ...]:
+        from plcgen.check.imported import import_check
+
         return (import_check(files),) if target == SMART.name else ()
 
     def golden_trace(self, target: str, files: Files) -> Trajectory:
+        from plcgen.check.cosine import nominal_trace
+
         return nominal_trace(self.subject(target, files))
 
     def subject(self, target: str, files: Files) -> Subject:
+        from plcgen.check.cosine import Subject
+
         return Subject(self._smart(files) if target == SMART.name else self._s7(target, files), self.model)
 
     def _smart(self, files: Files) -> Callable[[], Axis]:
-        program, addresses, job = load_smart(self.job, files), memory_map(self.job), self.job
+        """V memory may be retained over a loss of power, and is as worn as the temporaries."""
+        from plcgen.check.cosine_smart_rig import SmartAxis
+
+        program, addresses, job = load_smart(self.job.name, files), memory_map(self.job), self.job
         fills = cycle(GARBAGE)
-        return lambda: _smart_axis(program, addresses, job, next(fills))
+
+        def fresh() -> SmartAxis:
+            fill = next(fills)
+            return SmartAxis(program, addresses, job.sample_period, job.cosine.shape, fill, retained=fill)
+
+        return fresh
 
     def _s7(self, target: str, files: Files) -> Callable[[], Axis]:
+        from plcgen.check.rig import Instance
+
         program, names = load(target, files), cosine.block_names(self.job, target)
         fb, db = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
         fills = cycle(GARBAGE)
@@ -115,11 +132,6 @@ class CosinePlan(Plan):
         period = self.job.sample_period
         parts = [_columns(number, motion, period) for number, motion in enumerate(self.nominal(), start=1)]
         return Trajectory({name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
-
-
-def _smart_axis(program: Program, addresses: Mapping[str, str], job: Job, fill: int) -> SmartAxis:
-    """V memory may be retained over a loss of power, and is as worn as the temporaries."""
-    return SmartAxis(program, addresses, job.sample_period, job.cosine.shape, fill, retained=fill)
 
 
 def _columns(number: int, motion: PlannedMotion, period: float) -> dict[str, np.ndarray]:

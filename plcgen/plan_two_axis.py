@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plcgen.check.two_axis import nominal_trace, verify_two_axis
 from plcgen.check.two_axis_model import MoveModel, TwoAxisModel
-from plcgen.check.two_axis_rig import Subject
-from plcgen.check.verdict import Check, TargetVerdict
+from plcgen.check.verdict import TargetVerdict
 from plcgen.job import Job
 from plcgen.jobfile_two_axis import LONGEST_MOVE, Move
+from plcgen.loading import load_smart
 from plcgen.plan import Derivation, Files, Plan, Progress, Stretch
-from plcgen.plc.core import Program
-from plcgen.plc.importrules.s7_smart import findings
-from plcgen.plc.source import decode_source
-from plcgen.plc.stl.lowering import lower
-from plcgen.plc.stl.parser import parse
 from plcgen.profile.reference import Reference
 from plcgen.profile.seven_phase import time_optimal
 from plcgen.profile.stop import stop_phases
@@ -38,6 +32,9 @@ from plcgen.render.files import OutputFile
 from plcgen.render.two_axis import output_files, two_axis_context
 from plcgen.render.two_axis_memory import layout, memory_map, refuse_what_does_not_fit
 from plcgen.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from plcgen.check.two_axis_rig import Subject
 
 
 @dataclass(frozen=True)
@@ -70,6 +67,9 @@ class TwoAxisPlan(Plan):
     def verify(
         self, _target: str, files: Files, progress: Progress | None = None, fail_fast: bool = False
     ) -> TargetVerdict:
+        from plcgen.check.imported import import_check
+        from plcgen.check.two_axis import verify_two_axis
+
         checks = (import_check(files), *verify_two_axis(self.subject(files), progress, fail_fast).checks)
         return TargetVerdict(checks)
 
@@ -85,43 +85,20 @@ class TwoAxisPlan(Plan):
         return Trajectory({"move": numbers, **columns})
 
     def golden_trace(self, _target: str, files: Files) -> Trajectory:
+        from plcgen.check.two_axis import nominal_trace
+
         return nominal_trace(self.subject(files))
 
     def subject(self, files: Files) -> Subject:
-        return Subject(load(self.job, files), two_axis_model(self), lambda: load(self.job, files, timed=True))
+        from plcgen.check.two_axis_rig import Subject
+
+        name = self.job.name
+        return Subject(load_smart(name, files), two_axis_model(self), lambda: load_smart(name, files, timed=True))
 
 
 def prepare(job: Job) -> TwoAxisPlan:
     """Raises JobError where the limits of the job cannot be met."""
     return TwoAxisPlan.of(job)
-
-
-def load(job: Job, files: Mapping[str, bytes], timed: bool = False) -> Program:
-    """The joined file when it is there, else every block by itself. `timed`: with what counts its run time."""
-    joined = f"{job.name}.awl"
-    names = [joined] if joined in files else sorted(name for name in files if name.endswith(".awl"))
-    return _load(tuple((name, files[name]) for name in names), timed)
-
-
-@lru_cache(maxsize=8)
-def _load(files: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
-    blocks = [block for name, data in files for block in parse(decode_source(name, data))]
-    return lower(blocks, timed=timed)
-
-
-def import_check(files: Files) -> Check:
-    """What Micro/WIN would leave out of the blocks without a word: the interpreter runs what is written."""
-    sources = [decode_source(name, data) for name, data in files.items() if name.endswith(".awl")]
-    parsed = [(source, parse(source)) for source in sources]
-    # What the block of a file by itself calls stands in other such files.
-    alone = [block for _, blocks in parsed if len(blocks) == 1 for block in blocks]
-    found = [
-        finding
-        for source, blocks in parsed
-        for finding in findings(source, blocks, alone if len(blocks) == 1 else blocks)
-        if finding.severity == "error"
-    ]
-    return Check("import_errors", float(len(found)), 0.0, "1", detail="; ".join(map(str, found)))
 
 
 def two_axis_model(plan: TwoAxisPlan) -> TwoAxisModel:

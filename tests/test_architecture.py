@@ -122,9 +122,9 @@ def test_no_module_is_too_long_to_read(path: Path) -> None:
     assert len(path.read_text("utf-8").splitlines()) <= 450
 
 
-def loaded_after(code: str) -> set[str]:
-    """Heavy packages that a fresh interpreter has loaded after some code."""
-    report = f"import sys\n{code}\nprint('loaded:', *[name for name in {HEAVY} if name in sys.modules])"
+def loaded_after(code: str, watched: tuple[str, ...] = HEAVY) -> set[str]:
+    """Packages and modules among the watched ones that a fresh interpreter has loaded after some code."""
+    report = f"import sys\n{code}\nprint('loaded:', *[name for name in {watched} if name in sys.modules])"
     run = subprocess.run([sys.executable, "-c", report], cwd=ROOT, capture_output=True, text=True, check=True)
     return set(run.stdout.split("loaded:")[-1].split())
 
@@ -142,6 +142,19 @@ def test_command_line_starts_light(code: str) -> None:
     if find_spec("plcgen.cli") is None:
         pytest.skip("there is no plcgen.cli yet")
     assert loaded_after(code) == set()
+
+
+SIMULATION = ("numba", "plcgen.plc.machine", "plcgen.plc.cpu", "plcgen.check.rig", "plcgen.check.binary_result")
+
+
+@pytest.mark.parametrize("case", ["main-shaft", "ramps", "table-1"])
+def test_sources_that_are_not_run_load_no_simulation(case: str, tmp_path: Path) -> None:
+    arguments = ["generate", f"golden/{case}/job.toml", "--no-verify", "-o", str(tmp_path)]
+    code = (
+        f"from click.testing import CliRunner\nfrom plcgen.cli import main\n"
+        f"assert CliRunner().invoke(main, {arguments}).exit_code == 0"
+    )
+    assert loaded_after(code, SIMULATION) == set()
 
 
 # Spelled in pieces, or this file would be its own finding.

@@ -42,7 +42,7 @@ class Cursor:
 
     @property
     def current(self) -> Token:
-        return self.peek()
+        return self._ahead[0] if self._ahead else self.peek()
 
     def advance(self) -> Token:
         self.previous = self.peek()
