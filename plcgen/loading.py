@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
-    """Parse and lower every source file of a target for S7-300 or TIA; the latest ones are at hand."""
+    """Parse and lower every source file of a target for S7-300 or TIA; the latest ones are at hand.
+
+    FBs in STL tell their binary result.
+    """
     return _load(target, tuple(files.items()))
 
 
@@ -26,8 +29,9 @@ def load(target: str, files: Mapping[str, bytes]) -> Program:
 def _load(target: str, entries: tuple[tuple[str, bytes], ...]) -> Program:
     if TARGETS[target].dialect == "stl":
         from plcgen.plc.stl import s7_lowering as stl
+        from plcgen.plc.stl.s7_registers import BR
 
-        return stl.lower(read_stl(dict(entries)))
+        return stl.lower(read_stl(dict(entries)), told=frozenset({BR}))
     from plcgen.plc.scl import lowering as scl
 
     return scl.lower(*read_scl(target, dict(entries)))

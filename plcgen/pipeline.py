@@ -46,9 +46,9 @@ def verify(
     if target != STL or (fail_fast and not verdict.ok):
         return verdict
     from plcgen.check.binary_result import binary_result
-    from plcgen.loading import read_stl
+    from plcgen.loading import load
 
-    return TargetVerdict((*verdict.checks, binary_result(read_stl(files)), agreement(plan, files)))
+    return TargetVerdict((*verdict.checks, binary_result(load(target, files)), agreement(plan, files)))
 
 
 def agreement(plan: Plan, files: Files) -> Check:

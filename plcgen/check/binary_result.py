@@ -2,48 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from plcgen.check.verdict import Check
+from plcgen.plc.core import DataBlock, Program
 from plcgen.plc.machine import Machine
-from plcgen.plc.source import SourceText
-from plcgen.plc.stl.s7_lowering import lower
-from plcgen.plc.stl.s7_parser import parse
-from plcgen.plc.stl.s7_syntax import Block
-from plcgen.plc.types import BOOL
-
-PROBE = """FUNCTION FC {number} : BOOL
-VERSION : 0.1
-BEGIN
-NETWORK
-TITLE =
-      CLR   ;
-      SAVE  ;
-      CALL  {fb} , {db} ;
-      A     BR;
-      =     #RET_VAL;
-      BE    ;
-END_FUNCTION
-"""
+from plcgen.plc.stl.s7_registers import BR, CELLS, SHARED
+from plcgen.plc.types import BOOL, BYTE_BITS
 
 
-def binary_result(blocks: Sequence[Block]) -> Check:
-    """Calls of an FB on its instance DB that end with BR = 0: a cold start, and one with each of its BOOL set."""
-    owners = [(block.declaration.instance_of, block.name) for block in blocks]
-    wrong = [f"{fb}, {when}" for fb, db in owners if fb is not None for when in _failing(blocks, fb, db)]
+def binary_result(program: Program) -> Check:
+    """Calls of an FB on its instance DB that end with BR = 0: a cold start, and one with each of its BOOL set.
+
+    The FBs must tell BR, see `s7_lowering.lower`.
+    """
+    wrong = [f"{block.function}, {when}" for block in program.data_blocks.values() for when in _failing(program, block)]
     return Check("binary_result_zero", float(len(wrong)), 0.0, "1", detail="; ".join(wrong))
 
 
-def _failing(blocks: Sequence[Block], fb: str, db: str) -> Iterator[str]:
-    taken = {block.name for block in blocks}
-    name = next(name for number in range(1, len(blocks) + 2) if (name := f"FC{number}") not in taken)
-    probe = parse(SourceText("probe.awl", PROBE.format(number=name[2:], fb=fb, db=db)))
-    machine = Machine(lower([*blocks, *probe]))
-    if not machine.call(name, arguments=[False]):
+def _failing(program: Program, block: DataBlock) -> Iterator[str]:
+    if block.function is None:
+        return
+    machine = Machine(program)
+    if not _result(machine, block.function, block.name):
         yield "cold start"
-    instance = machine.program.functions[fb].instance
-    for member in instance.fields if instance else ():
+    for member in block.type.fields:
         if member.type is BOOL:
-            machine.variable(f'"{db}".{member.name}').set(True)
-            if not machine.call(name, arguments=[False]):
+            machine.variable(f'"{block.name}".{member.name}').set(True)
+            if not _result(machine, block.function, block.name):
                 yield member.name
+
+
+def _result(machine: Machine, fb: str, db: str) -> bool:
+    """BR behind a call of a block that found 0 in it."""
+    byte, bit = divmod(CELLS[BR].bit, BYTE_BITS)
+    machine.memory[SHARED][byte] = 0
+    machine.call(fb, db)
+    return bool(machine.memory[SHARED][byte] >> bit & 1)

@@ -148,7 +148,7 @@ def _trip_phases(
     trip: TripModel, segment: Segment, start: Samples, time: Samples, stopping: Samples, offset: float
 ) -> Samples:
     """The legs at instants and places that are moved by what rounding may move them."""
-    by_travel = np.clip(trip.reference.at_travel(segment.travelled + offset).leg, CREEP_OUT, STOP_RAMP)
+    by_travel = np.clip(trip.reference.legs_at(segment.travelled + offset), CREEP_OUT, STOP_RAMP)
     ramp = np.where(time >= trip.reference.duration, STANDSTILL, STOP_RAMP)
     return np.select([start < trip.start_time, stopping], [np.full(len(time), START_RAMP), ramp], by_travel)
 

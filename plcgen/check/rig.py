@@ -8,6 +8,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from math import floor, inf
 from random import Random
+from struct import Struct
 
 import numpy as np
 
@@ -30,6 +31,8 @@ class Encoder:
 
 
 PERFECT = Encoder()
+_MOMENT = Struct("=dd")
+"""Time and plant travel of a scan, as they are recorded."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +158,7 @@ class Rig(Instance):
         self.plant = Plant(travel)
         self.forced: dict[str, float] = {}
         self._random = Random(clock.seed)
-        self._places: list[tuple[float, float]] = []
+        self._moments: list[bytes] = []
         self._travel, self._velocity, self._setpoint = (
             self.variable(name) for name in (self.TRAVEL, self.VELOCITY, self.SETPOINT)
         )
@@ -176,21 +179,21 @@ class Rig(Instance):
 
     def scan(self) -> None:
         """One call of the cyclic interrupt."""
-        self.plant.move_to(self._times(1)[0])
+        self.plant.move_to(float(self._times(1)[0]))
         del self._late[:1]
         self._travel.set(self.forced.get(self.TRAVEL, self._measured()))
         self._velocity.set(self.forced.get(self.VELOCITY, self.plant.velocity))
         super().scan()
         self.plant.velocity = self._setpoint.get()
-        self._places.append((self.plant.time, self.plant.travel))
+        self._moments.append(_MOMENT.pack(self.plant.time, self.plant.travel))
 
-    def _times(self, scans: int) -> list[float]:
+    def _times(self, scans: int) -> np.ndarray:
         """When the next calls come."""
         jitter, late = self.clock.jitter, self._late
         while jitter and len(late) < scans:
             late.append(self._random.uniform(-jitter, jitter))
-        first, period = self.scans, self.clock.period
-        return [(first + scan + late[scan] if jitter else first + scan) * period for scan in range(scans)]
+        due = np.arange(self.scans, self.scans + scans, dtype=np.float64)
+        return (due + late[:scans] if jitter else due) * self.clock.period
 
     def _measured(self) -> float:
         reading = self.encoder.read(self.plant.travel)
@@ -221,7 +224,7 @@ class Rig(Instance):
     def _ride(self, loop: ClosedLoop, most: int, until: Goal) -> None:
         """Some scans at once, just as `scan` makes them: up to the goal at the most."""
         plant = self.plant
-        times = np.array(self._times(min(most, loop.LONGEST)))
+        times = self._times(min(most, loop.LONGEST))
         drive = np.array([plant.travel, plant.velocity, plant.time, self.encoder.quantum, *until.between])
         late = np.array(plant.history, dtype=np.float64)
         rows = loop.run(times, drive, late, *until.masks)
@@ -229,7 +232,7 @@ class Rig(Instance):
         self.machine.settle(loop)
         plant.travel, plant.velocity, plant.time = drive[:3].tolist()
         plant.history = deque(late.tolist())
-        self._places.extend(map(tuple, loop.places[:rows].tolist()))
+        self._moments.append(loop.places[:rows].tobytes())
         self._images.append(loop.images[:rows].tobytes())
         del self._late[:rows]
         self.scans += rows
@@ -244,12 +247,12 @@ class Rig(Instance):
         self.scans = moment.scans
         self.release()
         self._images.clear()
-        self._places.clear()
+        self._moments.clear()
 
     def trace(self) -> Trajectory:
         """Everything recorded: time, plant travel, and every elementary variable of the interface."""
-        times, travels = zip(*self._places, strict=True)
-        return Trajectory({"time": np.array(times), "plantTravel": np.array(travels), **super().trace().columns})
+        times, travels = np.frombuffer(b"".join(self._moments)).reshape(-1, 2).T
+        return Trajectory({"time": times, "plantTravel": travels, **super().trace().columns})
 
 
 def _decode(data: bytes, size: int, structure: Structure) -> dict[str, np.ndarray]:

@@ -119,19 +119,22 @@ class Reference:
         index = self._phase_of(self._starts[:, 1], travel)
         start_time, start_travel, velocity, acceleration = self._starts[index].T
         jerk = self._jerks[index]
+        to_go = travel - start_travel
         low = np.zeros_like(travel, dtype=np.float64)
-        high = self._starts[index + 1, 0] - start_time
+        step = self._starts[index + 1, 0] - start_time
         # 64 halvings reach the resolution of float64 for any duration.
         for _ in range(64):
-            t = (low + high) / 2
-            before = start_travel + _way(t, velocity, acceleration, jerk) < travel
-            low = np.where(before, t, low)
-            high = np.where(before, high, t)
-        return np.asarray(start_time + (low + high) / 2)
+            step /= 2
+            np.add(low, step, out=low, where=_way(low + step, velocity, acceleration, jerk) < to_go)
+        return np.asarray(start_time + low)
 
     def at_travel(self, travel: Samples) -> Motion:
         """Motion at places of the trip."""
         return self.at_time(self.time_at(travel))
+
+    def legs_at(self, travel: Samples) -> NDArray[np.int64]:
+        """Numbers of the legs at places of the trip."""
+        return np.asarray(self._legs[self._phase_of(self._starts[:, 1], travel)])
 
     def sample(self, period: float) -> Trajectory:
         """Columns time, travel, velocity, acceleration, jerk, phase at 0, period, ... up to and including the end."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from plcgen.check.binary_result import binary_result
-from plcgen.plc.source import SourceText
-from plcgen.plc.stl.s7_parser import parse
+from plcgen.check.verdict import Check
+from plcgen.loading import load
 
 SOURCE = """FUNCTION_BLOCK FB 1
 VERSION : 0.1
@@ -38,16 +38,20 @@ END_DATA_BLOCK
 """
 
 
+def found_in(source: str) -> Check:
+    return binary_result(load("s7-300-stl", {"a.awl": source.encode()}))
+
+
 def test_a_block_that_ends_with_1() -> None:
-    found = binary_result(parse(SourceText("a.awl", SOURCE.replace("JC    DONE", "NOP   0").format(end="SET   ;"))))
+    found = found_in(SOURCE.replace("JC    DONE", "NOP   0").format(end="SET   ;"))
     assert (found.ok, found.value, found.detail) == (True, 0.0, "")
 
 
 def test_a_way_past_save() -> None:
-    found = binary_result(parse(SourceText("a.awl", SOURCE.format(end="SET   ;"))))
+    found = found_in(SOURCE.format(end="SET   ;"))
     assert (found.ok, found.detail) == (False, "FB1, early; FB1, late")
 
 
 def test_a_block_that_ends_with_0() -> None:
-    found = binary_result(parse(SourceText("a.awl", SOURCE.format(end="CLR   ;"))))
+    found = found_in(SOURCE.format(end="CLR   ;"))
     assert (found.ok, found.detail) == (False, "FB1, cold start; FB1, early; FB1, late")

@@ -32,9 +32,12 @@ NO_SYMBOLS: Mapping[str, str] = MappingProxyType({})
 END = "END"
 
 
-def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS) -> Program:
+def lower(
+    blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS, told: frozenset[Register] = frozenset()
+) -> Program:
     """A verified program. `symbols` maps quoted names to absolute ones such as FB100 or M0.0.
 
+    At its end an FB leaves the registers `told` in the memory of registers, whether a block reads them or not.
     Raises SourceError for whatever cannot be understood or is not supported.
     """
     catalogue = Catalogue([block.declaration for block in blocks], symbols)
@@ -43,18 +46,21 @@ def lower(blocks: Sequence[Block], symbols: Mapping[str, str] = NO_SYMBOLS) -> P
             catalogue.data_block(block.name)
         elif block.declaration.kind is BlockKind.UDT:
             catalogue.structure_of(block.declaration)
-    functions = _functions([block for block in blocks if block.declaration.kind in CALLABLE], catalogue)
+    functions = _functions([block for block in blocks if block.declaration.kind in CALLABLE], catalogue, told)
     data_blocks = {block.name: block for block in catalogue.created.values()}
-    if any(_reads_shared(function) for function in functions.values()):
+    if told or any(_reads_shared(function) for function in functions.values()):
         data_blocks[SHARED] = SHARED_BLOCK
     return verify(Program(functions, data_blocks, catalogue.symbols))
 
 
-def _functions(blocks: Sequence[Block], catalogue: Catalogue) -> dict[str, Function]:
+def _functions(blocks: Sequence[Block], catalogue: Catalogue, told: frozenset[Register]) -> dict[str, Function]:
     """Again and again, until no block is found to read another register of its callers or callees."""
     handovers = Handovers()
+    for block in blocks:
+        if block.declaration.kind is BlockKind.FB:
+            handovers.exit[block.name] |= told
     functions = [_function(block, catalogue, handovers) for block in blocks]
-    written = [_needed(function, Handovers()) for function in functions]
+    written = [_needed(function, handovers) for function in functions]
     while True:
         news = [_found(function, handovers) for function in functions]
         if not any(news):
