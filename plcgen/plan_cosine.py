@@ -117,12 +117,12 @@ class CosinePlan(Plan):
         return fresh
 
     def _s7(self, target: str, files: Files) -> Callable[[], Axis]:
-        from plcgen.check.rig import Instance
+        from plcgen.check.cosine_s7_rig import S7Axis
 
         program, names = load(target, files), cosine.block_names(self.job, target)
         fb, db = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
         fills = cycle(GARBAGE)
-        return lambda: Instance(program, fb, db, next(fills))
+        return lambda: S7Axis(program, fb, db, next(fills))
 
     def reserved_bytes(self, target: str) -> int:
         return layout(self.job).bytes if target == SMART.name else 0

@@ -138,21 +138,23 @@ def _drive(axis: Axis, model: RampModel, orders: Sequence[Command], count: int, 
     by_sample: dict[int, list[Command]] = {}
     for order in orders:
         by_sample.setdefault(order.sample, []).append(order)
-    for sample in range(count):
+    changes = {0, *by_sample, *(sample + 1 for sample in by_sample)}
+    for sample, following in pairwise(sorted(change for change in changes | {count} if change <= count)):
         if sample - 1 in by_sample or sample == 0:
             axis.set(execute=False, stop=False)
         for order in by_sample.get(sample, ()):
             _command(axis, order)
-        axis.scan()
+        axis.samples(following - sample)
     trace = axis.trace()
     return trace.rows(np.arange(len(trace) - count, len(trace)))
 
 
 def _wear(axis: Axis, model: CosineModel, **order: float) -> None:
     """Samples of an order, more than the average remembers."""
-    for sample in range(model.filter_length + 3):
-        axis.set(execute=sample > 0, **order)
-        axis.scan()
+    axis.set(execute=False, **order)
+    axis.scan()
+    axis.set(execute=True)
+    axis.samples(model.filter_length + 2)
 
 
 def _restart(axis: Axis, **inputs: float) -> None:
@@ -247,12 +249,13 @@ def _move(
     if cycle != model.sample_period:  # else the block knows it
         axis.set(cycleTime=cycle)
     axis.scan()
-    for sample in range(count):
+    stops = set() if stop_at is None else {stop_at, stop_at + 1}
+    for sample, following in pairwise(sorted({0, 1, *stops, count})):
         if sample < 2:
             axis.set(execute=sample == 0, distance=distance)
-        if stop_at is not None and stop_at <= sample < stop_at + 2:
+        if sample in stops:
             axis.set(stop=sample == stop_at)
-        axis.scan()
+        axis.samples(following - sample)
     trace = axis.trace()
     trace = trace.rows(np.arange(len(trace) - count, len(trace)))
     motion = likeliest(trace, model.possible(distance, count, stop_at, cycle))
@@ -311,8 +314,7 @@ def _standstill(subject: Subject) -> Check:
         axis.set(execute=True, stop=False, **_random_order(model, random))
         axis.scan()
         axis.set(execute=False)
-        for _ in range(random.randrange(1, 20)):
-            axis.scan()
+        axis.samples(random.randrange(1, 20))
         if number % REST_EVERY == 0 or isinstance(model, MoveModel):
             wrong += not _comes_to_rest(axis, model)
     return Check("standstill_not_exact", float(wrong), 0.0, "1")
@@ -335,8 +337,5 @@ def _comes_to_rest(axis: Axis, model: CosineModel) -> bool:
     else:
         assert isinstance(model, MoveModel)
         enough = 2 * model.samples(max(map(abs, model.distances)), cycle)
-    for _ in range(enough + 2 * model.filter_length):
-        axis.scan()
-        if axis.get("standstill"):
-            break
+    axis.samples(enough + 2 * model.filter_length, until="standstill")
     return bool(axis.get("standstill")) and axis.get("velocitySetpoint") == 0.0

@@ -95,9 +95,8 @@ class SmartAxis:
         self.scans = 0
         self.cpu = Smart(program, FIRST_SCAN_US, temp_fill=temp_fill)
         self._places = {name: _place(addresses[signal.name], signal.type) for name, signal in OUTPUTS.items()}
-        self._first = min(place.byte for place in self._places.values())
-        last = max(place.end for place in self._places.values())
-        self._memory = memoryview(self.cpu.memory[V])[self._first : last]
+        places = self._places.values()
+        self._recorded = range(min(place.byte for place in places), max(place.end for place in places))
         self._variables = {
             name: self.cpu.variable(addresses[signal.name], signal.type)
             for name, signal in (INPUTS[kind] | OUTPUTS).items()
@@ -132,18 +131,28 @@ class SmartAxis:
 
     def scan(self) -> None:
         """One tick of the timed interrupt."""
-        self.cpu.run_interrupt(TICK)
-        self._records.append(bytes(self._memory))
-        self.scans += 1
+        self.samples(1)
+
+    def samples(self, most: int, until: str = "") -> None:
+        """Ticks of the timed interrupt, up to one behind which the output `until` is TRUE."""
+        end = self.scans + most
+        place = self._places.get(until)
+        byte, mask = (place.byte, 1 << place.bit) if place else (self._recorded.start, 0)
+        while self.scans < end:
+            images = self.cpu.run_interrupts(TICK, end - self.scans, self._recorded, byte, mask)
+            self._records.append(images)
+            self.scans += len(images) // len(self._recorded)
+            if until and self.get(until):
+                return
 
     def trace(self) -> Trajectory:
         """Every output and the speed before the average, in each sample; `time` is that of its tick."""
-        rows, size = len(self._records), len(self._memory)
-        data = b"".join(self._records)
+        size, data = len(self._recorded), b"".join(self._records)
+        rows = len(data) // size
         columns = {"time": np.arange(self.scans - rows, self.scans) * self.sample_period}
         for name, place in self._places.items():
             dtype = np.dtype(">" + place.type.code)
-            column = np.ndarray((rows,), dtype, data, place.byte - self._first, (size,))
+            column = np.ndarray((rows,), dtype, data, place.byte - self._recorded.start, (size,))
             flag = place.type is BOOL
             columns[name] = (column >> place.bit & 1).astype(bool) if flag else column.astype(dtype.newbyteorder("="))
         return Trajectory(columns)

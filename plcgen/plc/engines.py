@@ -27,6 +27,14 @@ class Loop(Protocol):
         """Let Python do what the last scan needs, run it to its end, and tell its events. Raises Fault."""
 
 
+class CallLoop(Loop, Protocol):
+    """See `fast.call_loop`."""
+
+    images: np.ndarray
+
+    def run(self, most: int, byte: int = 0, mask: int = 0) -> int: ...
+
+
 class ClosedLoop(Loop, Protocol):
     """See `fast.closed_loop`."""
 
@@ -79,6 +87,16 @@ class Runner(Protocol):
 
     def take_counts(self) -> list[int]:
         """See `Engine.take_counts`."""
+
+    def call_loop(
+        self,
+        name: str,
+        instance: Bytes | None,
+        image: Bytes,
+        told: Sequence[tuple[Bytes, int, int]] = (),
+        kept: Sequence[Bytes] = (),
+    ) -> CallLoop | None:
+        """Calls of a block; None where there is no quicker way than one by one. See `fast.memory`."""
 
     def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
         """A block with its drive; None where there is no quicker way than scan by scan."""

@@ -24,6 +24,8 @@ ENTRY_BYTES = 12
 UPDATE_FREQUENCY, UPDATE_COUNT, TABLE, PULSES, ENABLE = 0x01, 0x04, 0x20, 0x40, 0x80
 """Bits of the control byte."""
 STOPPED, OVERRUN, IDLE = 0x20, 0x40, 0x80
+LEFT = 0x70
+"""Bits of the status that only a program takes away."""
 """Bits of the status byte."""
 
 
@@ -224,7 +226,7 @@ class Channel:
         """Status and segment number in special memory, before any program text runs."""
         self.advance(now)
         special, status = self._special, self._status
-        special[status] = special[status] & 0x70 | self._flags | self._idle
+        special[status] = special[status] & LEFT | self._flags | self._idle
         special[self._segment] = self._number
         self._flags = 0
 

@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Cell, Compute, Program
 from plcgen.plc.cpu.pto import PORTS, Channel, Violation
-from plcgen.plc.cpu.smart_loop import INTERRUPTS_ENABLED, LoopedScans, punctual
+from plcgen.plc.cpu.smart_loop import ALWAYS_ON, INTERRUPTS_ENABLED, LoopedScans, punctual
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import FaultRecord, Machine, Variable, accessors
 from plcgen.plc.stl.operands import read_address
@@ -40,7 +40,7 @@ QUEUE_LENGTHS = {COMMUNICATION: 8, INPUT_OUTPUT: 16, TIMERS: 8}
 
 _NEVER = 1 << 62  # us
 
-ALWAYS_ON, FIRST_SCAN, CLOCK_60S, CLOCK_1S, CLOCK_SCAN = 1, 2, 16, 32, 64
+FIRST_SCAN, CLOCK_60S, CLOCK_1S, CLOCK_SCAN = 2, 16, 32, 64
 """Bits of SMB0."""
 
 
@@ -151,6 +151,7 @@ class Smart(LoopedScans):
         self._ticks: dict[int, _Ticks] = {}
         self._queue: list[_Request] = []
         self._loops = {}
+        self._call_loops = {}
         self._arrivals = 0
         self._enabled = False
         self._scans = 0

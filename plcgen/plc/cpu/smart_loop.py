@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from plcgen.plc.core import Area, Program
-from plcgen.plc.cpu.pto import PORTS, Channel
+from plcgen.plc.cpu.pto import IDLE, LEFT, PORTS, Channel
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import Machine
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, V
 
 if TYPE_CHECKING:
-    from plcgen.plc.engines import EventLoop
+    from plcgen.plc.engines import CallLoop, EventLoop
 
 TICKS_AHEAD = 1000
 ON_TIME = np.zeros(TICKS_AHEAD, np.int64)
@@ -23,8 +23,8 @@ QUIET = -1
 """Nothing is left to do in a block."""
 WHOLE, IN_MAIN, IN_INTERRUPT, _BETWEEN = range(4)
 """Where a loop ended, see `fast.event_loop`."""
-INTERRUPTS_ENABLED = 16
-"""Bit of SMB4."""
+ALWAYS_ON, INTERRUPTS_ENABLED = 1, 16
+"""Bits of SMB0 and SMB4."""
 
 
 def punctual(_tick: int) -> int:
@@ -58,9 +58,12 @@ class LoopedScans(ABC):
     _events: Sequence[tuple[int, Channel]]
     _direction_bits: Mapping[str, int]
     _loops: dict[int, EventLoop | None]
+    _call_loops: dict[tuple[str, range, bool], CallLoop | None]
 
     @abstractmethod
     def scan(self) -> None: ...
+    @abstractmethod
+    def run_interrupt(self, event: int) -> None: ...
     @abstractmethod
     def _guarded(self, name: str, call: Callable[..., Any], *arguments: Any) -> Any: ...
     @abstractmethod
@@ -83,6 +86,42 @@ class LoopedScans(ABC):
         if not rows:
             self.scan()
         return rows or 1
+
+    def run_interrupts(self, event: int, most: int, recorded: range, byte: int = 0, mask: int = 0) -> bytes:
+        """Run the routine of an event so many times, here and now, up to one that leaves a bit of V memory set.
+
+        `recorded` are bytes of V memory, `byte` is one of them; returned is what they hold after each run.
+        """
+        loop = self._calls(event, recorded)
+        if loop is None:
+            self.run_interrupt(event)
+            return bytes(self.memory[V][recorded.start : recorded.stop])
+        self._refresh()
+        rows = loop.run(most, byte - recorded.start, mask)
+        self._guarded(self._attached[event], self._processor.settle, loop)
+        return loop.images[:rows].tobytes()
+
+    def _calls(self, event: int, recorded: range) -> CallLoop | None:
+        """None where something else may happen than the routine does."""
+        routine = self._attached.get(event)
+        if routine is None or not self.running or self._is_timed or any(channel.busy for channel in self._channels):
+            return None
+        key = routine, recorded, self._enabled
+        if key not in self._call_loops:
+            image = memoryview(self.memory[V])[recorded.start : recorded.stop]
+            kept = self.memory[AC], memoryview(self._special)[1:2]
+            engine = self._processor.engine
+            self._call_loops[key] = engine.call_loop(routine, None, image, list(self._told()), kept)
+        return self._call_loops[key]
+
+    def _told(self) -> Iterator[tuple[Bytes, int, int]]:
+        """What special memory says before a routine runs while no pulse output does: byte, bits that stay, bits set."""
+        special = memoryview(self._special)
+        yield special, 0xFF, ALWAYS_ON
+        yield special[4:], ~INTERRUPTS_ENABLED, INTERRUPTS_ENABLED if self._enabled else 0
+        for port in PORTS.values():
+            yield special[port.status :], LEFT, IDLE
+            yield special[port.segment :], 0, 0
 
     def _loop_watching(self, byte: int) -> EventLoop | None:
         if self.arguments or self._cycle not in self.program.functions:

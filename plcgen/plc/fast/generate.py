@@ -16,7 +16,7 @@ from plcgen.plc.types import BYTE, DINT, INT, REAL, WORD
 
 FILE = Path(__file__).with_name("vm.py")
 HELPERS = FILE.with_name("helpers.py")
-CALLERS = FILE.with_name("closed_loop.py"), FILE.with_name("event_loop.py")
+CALLERS = tuple(FILE.with_name(name) for name in ("call_loop.py", "closed_loop.py", "event_loop.py"))
 """What has to change with the virtual machine that it calls."""
 COMMON = frozenset({"BOOL", "BYTE", "WORD", "DWORD", "CHAR", "INT", "DINT", "REAL", "TIME"})
 """Types whose rows have bodies; the others are rare."""

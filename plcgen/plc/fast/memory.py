@@ -10,6 +10,7 @@ import numpy as np
 from plcgen.errors import PlcgenError
 from plcgen.plc.core import Area, Program
 from plcgen.plc.engine import Bytes, Site
+from plcgen.plc.fast.call_loop import CallLoop
 from plcgen.plc.fast.closed_loop import PHASE_AT, SETPOINT_AT, TRAVEL_AT, VELOCITY_AT, ClosedLoop
 from plcgen.plc.fast.engine import FastEngine
 from plcgen.plc.fast.event_loop import EventLoop
@@ -53,6 +54,25 @@ class FastRunner:
     def take_counts(self) -> list[int]:
         """See `Engine.take_counts`."""
         return self.engine.take_counts()
+
+    def call_loop(
+        self,
+        name: str,
+        instance: Bytes | None,
+        image: Bytes,
+        told: Sequence[tuple[Bytes, int, int]] = (),
+        kept: Sequence[Bytes] = (),
+    ) -> CallLoop | None:
+        """Calls of a block without Python. `image` is recorded after each. Before each the first byte of a view gets
+        bits, of `told` with those that stay and those that are set; after each the views `kept` are as they were.
+        """
+        entry = self.engine.entry(name)
+        if entry is None:
+            return None
+        base = 0 if instance is None else self._first_byte(instance)
+        bits = [(self._first_byte(view), stay, on) for view, stay, on in told]
+        places = [self._first_byte(view) + byte for view in kept for byte in range(len(view))]
+        return CallLoop(self.engine, entry, base, (self._first_byte(image), len(image)), bits, places)
 
     def closed_loop(self, name: str, instance: Bytes, places: Sequence[int]) -> ClosedLoop | None:
         """Scans of a block on its instance without Python; `places` are bytes of travel, velocity, setpoint, phase."""

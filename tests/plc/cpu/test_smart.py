@@ -373,6 +373,41 @@ def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pyt
     assert len(quick._loops) == 1
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_many_interrupts_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Up to a bit of what is recorded, or to the tick that detaches the routine; scans let trains come to their end."""
+    pytest.importorskip("numba", reason="the fast engine needs Numba")
+    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+    random = Random(seed)
+    numbers = {name: random.randrange(2, 60) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
+    numbers |= {"period": 200, "event": 19, "pulses": 100, "slow": 10, "segments": 2, "hertz": 99_000, "short": 100}
+    numbers |= {"long": 100, "every": random.choice([3, 5, 10_000]), "turned": random.choice([70, 10_000])}
+    numbers |= {"detached": random.choice([5, 50, 10_000]), "stop": random.choice([20, 10_000])}
+    text = smart_text(**{name: body.format(**numbers) for name, body in BUSY.items()})
+    program = lower(parse(SourceText("busy.awl", text)))
+    single, quick = (Smart(program, 900, directions={"Q0.1": "Q0.5"}) for _ in range(2))
+    recorded, byte = range(1, 40), 31  # low byte of VW30
+    while single._scans < 30:
+        for machine in (single, quick):
+            machine.scan()
+        batch, mask = random.randrange(1, 40), random.choice([0, 0, 4, 128])
+        images = [[], []]  # type: list[list[bytes]]
+        while 10 in single._attached and len(images[0]) < batch:
+            single.run_interrupt(10)
+            images[0].append(bytes(single.memory["V"][recorded.start : recorded.stop]))
+            if single.memory["V"][byte] & mask:
+                break
+        while 10 in quick._attached and len(images[1]) < batch:
+            data = quick.run_interrupts(10, batch - len(images[1]), recorded, byte, mask)
+            images[1] += [data[at : at + len(recorded)] for at in range(0, len(data), len(recorded))]
+            if quick.memory["V"][byte] & mask:
+                break
+        assert images[0] == images[1], (seed, numbers)
+        assert observed(quick) == observed(single), (seed, numbers)
+        assert bytes(quick._special) == bytes(single._special), (seed, numbers)
+    assert any(quick._call_loops.values())
+
+
 def test_ticks_that_start_tables_need_no_python(monkeypatch: pytest.MonkeyPatch) -> None:
     """50 scans with 25 ticks, each of which starts 1000 pulses at 100 kHz, in one go."""
     pytest.importorskip("numba", reason="the fast engine needs Numba")
