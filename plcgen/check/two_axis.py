@@ -212,10 +212,10 @@ def _off_the_stop(model: TwoAxisModel, move: MoveModel, lead: Samples) -> float:
     for begin in range(int(parted[0]) if len(parted) else last - 1, 0, -1):
         law = move.stop(float(speed[begin]), float(acceleration[begin]))
         times = np.arange(len(lead) - begin) * period
-        # Most begins are worse in their last sample, at rest, than another in all.
+        # An earlier stop ends no farther off, give or take where it begins: none of those left fits better than this.
         rest = min(lead[begin] + law.travel, move.lead_pulses)
-        if times[-1] >= law.duration and abs(lead[-1] - rest) >= worst:
-            continue
+        if times[-1] >= law.duration and lead[-1] - rest >= worst + 2 * position_bound(move):
+            break
         stop = np.minimum(lead[begin] + law.at_time(times).travel, move.lead_pulses)
         worst = min(worst, float(np.abs(lead[begin:] - stop).max()))
     return float(worst)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -105,34 +105,30 @@ def _frequencies(model: TwoAxisModel, table: Table, ride: Ride) -> float:
     worst = 0.0
     for output, share in zip(outputs, (1.0, ride.move.follow_pulses / ride.move.lead_pulses), strict=True):
         segments = [s for s in table.cpu.channels[output].segments if s.start >= ride.first_tick]
-        for before, segment in zip([*segments[:1], *segments], segments, strict=False):
+        due = _due(model, ride, segments, share)
+        for before, segment, (speed, acceleration) in zip([*segments[:1], *segments], segments, due, strict=False):
             constant = segment.first_hz == segment.last_hz
-            if constant and (segment.start in steady or _too_few(model, ride, segment, share)):
+            if constant and (segment.start in steady or _too_few(model, segment, speed)):
                 steady |= {segment.start} if not model.is_table else set()
                 continue
-            worst = max(worst, _off_the_speed(model, ride, segment, share, before))
+            # The segment begins as late as whole Hz have made the one before it.
+            late = BOUNDARY + 2 * _blur(before) if model.is_table else 0.0
+            blur = late * (acceleration + ride.move.jerk * late * share) + 2e-6 * speed
+            worst = max(worst, abs(segment.first_hz - speed) - blur)
     return worst
 
 
-def _too_few(model: TwoAxisModel, ride: Ride, segment: Segment, share: float) -> bool:
+def _too_few(model: TwoAxisModel, segment: Segment, speed: float) -> bool:
     pulse = 0.0 if model.is_table else _pulse_rate(model)
-    speed, _ = _speed(model, ride, segment, share)
     return 2 * _rate(segment) < speed + 4 + 2 * pulse
 
 
-def _off_the_speed(model: TwoAxisModel, ride: Ride, segment: Segment, share: float, before: Segment) -> float:
-    """Hz; the segment begins as late as whole Hz have made the one before it."""
-    speed, acceleration = _speed(model, ride, segment, share)
-    late = BOUNDARY + 2 * _blur(before) if model.is_table else 0.0
-    blur = late * (acceleration + ride.move.jerk * late * share) + 2e-6 * speed
-    return abs(segment.first_hz - speed) - blur
-
-
-def _speed(model: TwoAxisModel, ride: Ride, segment: Segment, share: float) -> tuple[float, float]:
-    """Speed and acceleration, without sign, that an axis should begin a segment with, in Hz and Hz/s."""
+def _due(model: TwoAxisModel, ride: Ride, segments: Sequence[Segment], share: float) -> Iterator[tuple[float, float]]:
+    """Speed and acceleration, without sign, that an axis should begin each segment with, in Hz and Hz/s."""
     scale = share if model.is_table else share / model.train_share
-    _, speed, acceleration = ride.move.motion(np.array([(segment.start - ride.first_tick) / SECOND]))
-    return max(1.0, float(speed[0]) * scale), float(np.abs(acceleration[0])) * scale
+    times = np.array([(segment.start - ride.first_tick) / SECOND for segment in segments])
+    _, speed, acceleration = ride.move.motion(times)
+    return zip(np.maximum(1.0, speed * scale).tolist(), (np.abs(acceleration) * scale).tolist(), strict=True)
 
 
 def stop_frequencies(table: Table, ride: Ride, lead: Samples) -> Check:

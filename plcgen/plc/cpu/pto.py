@@ -122,6 +122,7 @@ class Channel:
         self.port = PORTS[output]
         self._status, self._segment = self.port.status, self.port.segment
         self.segments: list[Segment] = []
+        self._drawn: tuple[object, tuple[NDArray[Any], ...]] = (None, ())
         self.lost = 0
         self._special, self._table, self._report = special, table, report
         self._direction = direction
@@ -387,13 +388,7 @@ class Channel:
         if not self.segments:
             none = np.zeros(times.shape, dtype=np.int64)
             return none, none, np.zeros(times.shape)
-        starts = np.array([s.start for s in self.segments])
-        durations = np.array([s.duration for s in self.segments])
-        first = np.array([s.first_hz for s in self.segments], dtype=np.float64)
-        slope = np.array([s._slope for s in self.segments])
-        sent = np.array([s.sent for s in self.segments], dtype=np.int64)
-        signs = np.array([-1 if s.direction else 1 for s in self.segments], dtype=np.int64)
-        before = np.concatenate([[0], np.cumsum(signs * sent)])
+        starts, durations, first, slope, sent, signs, before = self._columns()
         place = np.searchsorted(starts, times, side="right") - 1
         inside = np.maximum(place, 0)
         seconds = np.clip(times - starts[inside], 0.0, durations[inside]) / SECOND
@@ -401,6 +396,22 @@ class Channel:
         over = times - starts[inside] >= durations[inside]
         own = np.where(over, sent[inside], np.minimum(phase, sent[inside]))
         return before[inside], signs[inside], np.where(place < 0, 0.0, own)
+
+    def _columns(self) -> tuple[NDArray[Any], ...]:
+        """Of the segments: starts, durations in us, first frequencies, slopes, pulses, signs, and pulses before each.
+
+        They are the same until the number of segments or the last one changes.
+        """
+        state = len(self.segments), self.segments[-1]
+        if self._drawn[0] != state:
+            rows = np.array([(s.start, s.end, s.first_hz, s.last_hz, s.sent, s.direction or 0) for s in self.segments])
+            starts, ends, first, last = rows[:, :4].T.copy()
+            sent, turned = rows[:, 4:].T.astype(np.int64)
+            signs = 1 - 2 * turned
+            slopes = (last - first) * SECOND / (ends - starts)
+            before = np.concatenate([[0], np.cumsum(signs * sent)])
+            self._drawn = state, (starts, ends - starts, first, slopes, sent, signs, before)
+        return self._drawn[1]
 
     def instants(self) -> NDArray[np.float64]:
         """When each pulse is complete, in order."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -144,9 +146,10 @@ class LoopedScans(ABC):
     def _looped(self, loop: EventLoop, most: int) -> int:
         """Scans at once; 0 when the next one is not for a loop."""
         ticks = next(iter(self._ticks.items()), None)
-        waits = bool(self._queue or self._blocked) or self.time_us != self._next_scan
+        waits = bool(self._queue) or self.time_us != self._next_scan
         has_more = len(self._ticks) > 1 or (ticks is not None and not self._enabled)
-        if not self.running or waits or has_more or not self._hand_over(loop):
+        most = min(most, self._free_scans(most))
+        if not self.running or waits or has_more or not most or not self._hand_over(loop):
             return 0
         enabled = INTERRUPTS_ENABLED if self._enabled else 0
         loop.clock[:] = self._scans, self._next_scan, self.scan_us, self.time_us, enabled, most
@@ -162,6 +165,13 @@ class LoopedScans(ABC):
             self._take_over(loop, recorded)
             self._go_on(loop, ended, place)
         return int(rows)
+
+    def _free_scans(self, most: int) -> int:
+        """Scans from now on, all over before interrupts are blocked the next time."""
+        place = bisect_right(self._blocked, self.time_us, key=itemgetter(1))
+        if place == len(self._blocked):
+            return most
+        return max(0, (self._blocked[place][0] - self.time_us - 1) // self.scan_us)
 
     def _next_lateness(self, tick: int, most: int) -> np.ndarray:
         """Of a tick and those behind it."""

@@ -38,7 +38,7 @@ ZERO, BASE, _FREE, FACTOR, FIRST_SLOT = range(5)
 BACK, GO, IF, UNLESS, CALL, RETURN, ASK, MOVE, FILL, COPY = range(10)
 LOADS: Mapping[str, int] = {"B": 11, "b": 12, "H": 13, "h": 14, "I": 15, "i": 16, "f": 17, "Q": 18, "q": 18, "d": 18}
 STORES: Mapping[str, int] = {"B": 20, "b": 20, "H": 21, "h": 21, "I": 22, "i": 22, "f": 23, "Q": 24, "q": 24, "d": 24}
-LOAD_BIT, STORE_BIT, FIND = 10, 19, 25
+LOAD_BIT, STORE_BIT, FIND, SPREAD = 10, 19, 25, 26
 WIDTH, NUMBERS, SITE = 13, 6, 12
 ROUNDED_UP = 8
 """Frames and values begin at such bytes."""
@@ -183,16 +183,25 @@ class _Writer:
         code.entries[function.name] = Entry(len(code.rows), entry.parameters, entry.arrivals, entry.results, self.frame)
         if function.frame_bytes and not function.frame_given:
             code.row(FILL, self.frame, 0, function.frame_bytes, self.target.temp_fill)
-        for register in function.temporaries:
-            value = register.type.filled(self.target.temp_fill)
-            assert isinstance(value, int | float)
-            code.row(MOVE, self._register(register), code.constant(value))
+        self._fill_temporaries()
         for place, arrival in zip(function.parameters, entry.arrivals, strict=True):
             if isinstance(place, Cell):
                 self._put(place, arrival)
         for instruction in function.body:
             self._instruction(instruction)
         self._join()
+
+    def _fill_temporaries(self) -> None:
+        """One row for all of them: they lie side by side, and so do their values."""
+        temporaries = self.function.temporaries
+        assert not any(register.number in self.registers for register in temporaries)
+        slots = [self._register(register) for register in temporaries]
+        for register in temporaries:
+            value = register.type.filled(self.target.temp_fill)
+            assert isinstance(value, int | float)
+            self.code.constants[self.code.slot()] = value
+        if slots:
+            self.code.row(SPREAD, slots[0], slots[-1] + 1, len(slots))
 
     def _join(self) -> None:
         for row, label, span in self.jumps:

@@ -179,6 +179,7 @@ FIXED: tuple[tuple[str, ...], ...] = (
      "    x = x >> 8"),
     # 25: INDEX, (index, low, high, stride)
     ("if I[a] < I[b] or I[a] > I[c]:", "    S[0] = pc", "    return REQUEST", "I[t] = (I[a] - I[b]) * I[d]"),
+    ("for place in range(b):", "    I[t + place] = I[a + place]"),  # spread
 )  # fmt: skip
 WORD32 = "np.int64(M[p]) << 24 | np.int64(M[p + 1]) << 16 | np.int64(M[p + 2]) << 8 | np.int64(M[p + 3])"
 STORE32 = ("M[p] = x >> 24 & 255", "M[p + 1] = x >> 16 & 255", "M[p + 2] = x >> 8 & 255", "M[p + 3] = x & 255")

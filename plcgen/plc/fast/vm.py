@@ -333,6 +333,9 @@ def run(code: Any, room: Any, M: Any) -> int:
                 S[0] = pc
                 return REQUEST
             I[t] = (I[a] - I[b]) * I[d]
+        elif op == 26:
+            for place in range(b):
+                I[t + place] = I[a + place]
         elif op == 32:
             R = ((I[a] & I[code[pc, 6]]) << I[code[pc, 7]]) + 0 if I[a] >> I[code[pc, 8]] == I[code[pc, 9]] and (I[a] & I[code[pc, 6]]) <= I[code[pc, 10]] else -1 - I[a]
             if R < 0:
