@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from plcgen.plc.source import SourceText, decode_source
+from plcgen.plc.source import decode_source
 from plcgen.targets import TARGETS
 
 # Each language is imported when a source of it is read: a command that only generates is quick.
@@ -57,22 +57,37 @@ def _load_smart(entries: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
 
 def read_stl(files: Mapping[str, bytes]) -> list[StlBlock]:
     """The blocks of all STL sources; those of the example that calls the others come last."""
-    from plcgen.plc.stl.s7_parser import parse
-
-    return [block for source in _sources("s7-300-stl", files) for block in parse(source)]
+    return [block for entry in _entries("s7-300-stl", files) for block in _parsed_stl(*entry)]
 
 
 def read_scl(target: str, files: Mapping[str, bytes]) -> tuple[list[SclBlock], Dialect]:
     """The blocks of all SCL sources of a target, in the same order, and their dialect."""
+    blocks = [block for entry in _entries(target, files) for block in _parsed_scl(target, *entry)]
+    return blocks, _dialect(target)
+
+
+def _dialect(target: str) -> Dialect:
     from plcgen.plc.scl.dialects import CLASSIC, TIA
-    from plcgen.plc.scl.parser import parse
 
-    dialect = next(dialect for dialect in (CLASSIC, TIA) if dialect.name == TARGETS[target].dialect)
-    return [block for source in _sources(target, files) for block in parse(source, dialect)], dialect
+    return next(dialect for dialect in (CLASSIC, TIA) if dialect.name == TARGETS[target].dialect)
 
 
-def _sources(target: str, files: Mapping[str, bytes]) -> list[SourceText]:
+def _entries(target: str, files: Mapping[str, bytes]) -> list[tuple[str, bytes]]:
     names = sorted(
         (name for name in files if name.endswith(TARGETS[target].suffix)), key=lambda name: ("_example" in name, name)
     )
-    return [decode_source(name, files[name]) for name in names]
+    return [(name, files[name]) for name in names]
+
+
+@lru_cache(maxsize=16)
+def _parsed_stl(name: str, data: bytes) -> tuple[StlBlock, ...]:
+    from plcgen.plc.stl.s7_parser import parse
+
+    return tuple(parse(decode_source(name, data)))
+
+
+@lru_cache(maxsize=16)
+def _parsed_scl(target: str, name: str, data: bytes) -> tuple[SclBlock, ...]:
+    from plcgen.plc.scl.parser import parse
+
+    return tuple(parse(decode_source(name, data), _dialect(target)))

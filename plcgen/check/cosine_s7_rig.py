@@ -18,11 +18,12 @@ class S7Axis(Instance):
     def samples(self, most: int, until: str = "") -> None:
         """Calls of the cyclic interrupt, up to one behind which the output `until` is TRUE."""
         end = self.scans + most
+        byte, mask = self._bit(until) if until else (0, 0)
         while self.scans < end:
             if self._loop is None:
                 self.scan()
             else:
-                self._repeat(self._loop, end - self.scans, *self._bit(until))
+                self._repeat(self._loop, end - self.scans, byte, mask)
             if until and self.get(until):
                 return
 
@@ -30,7 +31,8 @@ class S7Axis(Instance):
         """Byte of the instance and mask."""
         structure = self.machine.program.functions[self.block].instance
         member = structure.member(output) if structure else None
-        return (member.bit // BYTE_BITS, 1 << member.bit % BYTE_BITS) if member else (0, 0)
+        assert member is not None, output
+        return member.bit // BYTE_BITS, 1 << member.bit % BYTE_BITS
 
     def _repeat(self, loop: CallLoop, most: int, byte: int, mask: int) -> None:
         """Some calls at once, just as `scan` makes them."""

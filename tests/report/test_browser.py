@@ -81,20 +81,20 @@ def opened(browser: Any, file: Path, width: int) -> tuple[Any, list[str]]:
 
 
 @pytest.mark.parametrize("width", [1280, 400])
-def test_every_plot_is_there_and_nothing_overlaps(browser: Any, report: tuple[Path, int], width: int) -> None:
+def test_every_plot_is_there_overlaps_nothing_and_zooms(browser: Any, report: tuple[Path, int], width: int) -> None:
     file, count = report
     shown, told = opened(browser, file, width)
-    assert told == []
     assert shown.evaluate("document.querySelectorAll('.plotly-graph-div').length") == count
     drawn = "[...document.querySelectorAll('.plotly-graph-div')].every(p => p.querySelector('.scatterlayer .js-line'))"
     assert shown.evaluate(drawn)
     assert shown.evaluate(OVERLAPS) == []
     assert shown.evaluate("document.documentElement.scrollWidth") <= width
+    assert_a_drag_zooms_in(shown)
+    assert told == []
     shown.context.close()
 
 
-def test_a_drag_zooms_in(browser: Any, report: tuple[Path, int]) -> None:
-    shown, told = opened(browser, report[0], 1280)
+def assert_a_drag_zooms_in(shown: Any) -> None:
     span = "(r => r[1] - r[0])(document.querySelector('.plotly-graph-div')._fullLayout.xaxis.range)"
     before = shown.evaluate(span)
     shown.locator(".plotly-graph-div").first.scroll_into_view_if_needed()
@@ -106,8 +106,6 @@ def test_a_drag_zooms_in(browser: Any, report: tuple[Path, int]) -> None:
     shown.mouse.up()
     shown.wait_for_timeout(300)
     assert shown.evaluate(span) < 0.9 * before
-    assert told == []
-    shown.context.close()
 
 
 def test_on_paper_the_drawn_pictures_stand_in_for_the_plots(browser: Any, report: tuple[Path, int]) -> None:

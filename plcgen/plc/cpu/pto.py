@@ -155,6 +155,11 @@ class Channel:
         return self._waiting is not None
 
     @property
+    def is_at_rest(self) -> bool:
+        """Whether no train runs, and there is nothing to tell of the last one."""
+        return not (self.busy or self._flags)
+
+    @property
     def running(self) -> tuple[Sequence[Segment], int] | None:
         """Segments of the running table and which of them runs; none when idle, None when there is more to it."""
         if self._waiting is not None or self._stop_at is not None or self._flags:

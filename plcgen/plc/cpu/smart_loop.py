@@ -98,7 +98,6 @@ class LoopedScans(ABC):
         if loop is None:
             self.run_interrupt(event)
             return bytes(self.memory[V][recorded.start : recorded.stop])
-        self._refresh()
         rows = loop.run(most, byte - recorded.start, mask)
         self._guarded(self._attached[event], self._processor.settle, loop)
         return loop.images[:rows].tobytes()
@@ -106,7 +105,8 @@ class LoopedScans(ABC):
     def _calls(self, event: int, recorded: range) -> CallLoop | None:
         """None where something else may happen than the routine does."""
         routine = self._attached.get(event)
-        if routine is None or not self.running or self._is_timed or any(channel.busy for channel in self._channels):
+        at_rest = all(channel.is_at_rest for channel in self._channels)
+        if routine is None or not self.running or self._is_timed or not at_rest:
             return None
         key = routine, recorded, self._enabled
         if key not in self._call_loops:
