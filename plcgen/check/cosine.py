@@ -311,7 +311,7 @@ def _standstill(subject: Subject) -> Check:
     if isinstance(model, MoveModel):
         orders = min(orders, MOST_RANDOM_SAMPLES // (2 * model.filter_length + 20))
     for number in range(1, orders + 1):
-        axis.set(execute=True, stop=False, **_random_order(model, random))
+        axis.set(execute=True, **_random_order(model, random))
         axis.scan()
         axis.set(execute=False)
         axis.samples(random.randrange(1, 20))
@@ -329,7 +329,7 @@ def _random_order(model: CosineModel, random: Random) -> dict[str, float]:
 
 
 def _comes_to_rest(axis: Axis, model: CosineModel) -> bool:
-    """A stop; `samples` of the largest change, twice, are enough."""
+    """A stop, and no longer; `samples` of the largest change, twice, are enough."""
     axis.set(stop=True)
     cycle = 10 * model.sample_period
     if isinstance(model, RampModel):
@@ -338,4 +338,5 @@ def _comes_to_rest(axis: Axis, model: CosineModel) -> bool:
         assert isinstance(model, MoveModel)
         enough = 2 * model.samples(max(map(abs, model.distances)), cycle)
     axis.samples(enough + 2 * model.filter_length, until="standstill")
+    axis.set(stop=False)
     return bool(axis.get("standstill")) and axis.get("velocitySetpoint") == 0.0

@@ -179,8 +179,9 @@ class Rig(Instance):
 
     def scan(self) -> None:
         """One call of the cyclic interrupt."""
-        self.plant.move_to(float(self._times(1)[0]))
+        late = self._lateness(1)[0] if self.clock.jitter else 0.0
         del self._late[:1]
+        self.plant.move_to((self.scans + late) * self.clock.period)
         self._travel.set(self.forced.get(self.TRAVEL, self._measured()))
         self._velocity.set(self.forced.get(self.VELOCITY, self.plant.velocity))
         super().scan()
@@ -189,11 +190,15 @@ class Rig(Instance):
 
     def _times(self, scans: int) -> np.ndarray:
         """When the next calls come."""
-        jitter, late = self.clock.jitter, self._late
-        while jitter and len(late) < scans:
-            late.append(self._random.uniform(-jitter, jitter))
         due = np.arange(self.scans, self.scans + scans, dtype=np.float64)
-        return (due + late[:scans] if jitter else due) * self.clock.period
+        return (due + self._lateness(scans)[:scans] if self.clock.jitter else due) * self.clock.period
+
+    def _lateness(self, scans: int) -> list[float]:
+        """How late so many calls come, and perhaps further ones, in periods."""
+        jitter, late = self.clock.jitter, self._late
+        while len(late) < scans:
+            late.append(self._random.uniform(-jitter, jitter))
+        return late
 
     def _measured(self) -> float:
         reading = self.encoder.read(self.plant.travel)

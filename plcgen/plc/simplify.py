@@ -97,7 +97,9 @@ class _Facts:
         self.origins[target.number] = origin
 
     def _mention(self, operands: Sequence[Operand]) -> None:
-        self.mentioned.update(operand.number for operand in operands if isinstance(operand, Register))
+        for operand in operands:
+            if isinstance(operand, Register):
+                self.mentioned.add(operand.number)
 
     def forget(self, target: Place) -> None:
         """The target is about to change."""

@@ -8,19 +8,24 @@ from __future__ import annotations
 
 import os
 import platform
-from collections.abc import Callable, Iterator
+import sys
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from statistics import median
+from subprocess import run
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from plcgen.check.two_axis_sweep import sweep
 from plcgen.golden import check_golden
 from plcgen.job import read_job
-from plcgen.loading import load, read_stl
+from plcgen.loading import load
 from plcgen.plan_two_axis import TwoAxisPlan
 from plcgen.plc import engines
 from plcgen.plc.machine import Machine
+from plcgen.plc.source import decode_source
+from plcgen.plc.stl.s7_parser import parse
 from plcgen.sweeps import TARGET, random_orders
 from tests.check.awlsim_rig import AwlsimBlock
 
@@ -74,6 +79,14 @@ def _repeated(work: Callable[[], object], times: int) -> None:
         work()
 
 
+def generating() -> float:
+    """Seconds for the sources of three targets without verification, as a process of its own."""
+    with TemporaryDirectory() as folder:
+        job = str(HOIST / "job.toml")
+        command = [sys.executable, "-m", "plcgen", "generate", job, "--no-verify", "-o", folder]
+        return seconds(lambda: run(command, check=True, capture_output=True, cwd=GOLDEN.parent))
+
+
 def golden(engine: str) -> float:
     """Seconds for `plcgen check` of all cases on all cores."""
     os.environ[engines.VARIABLE] = engine
@@ -103,7 +116,12 @@ def growth_with_length() -> Iterator[tuple[int, float]]:
     for times in (1, 2, 4):
         copies = {f"{number}{name}": text for number in range(times) for name, text in files.items()}
         lines = sum(text.count(b"\n") for text in copies.values())
-        yield lines, seconds(partial(read_stl, copies))
+        yield lines, seconds(partial(_parsed, copies))
+
+
+def _parsed(files: Mapping[str, bytes]) -> None:
+    for name, data in files.items():
+        parse(decode_source(name, data))
 
 
 def main() -> None:
@@ -118,6 +136,7 @@ def main() -> None:
     ):
         for count, time in figures:
             print(f"{count} {title}: {time:.3f} s, {1e6 * time / count:.1f} us each")
+    print(f"generate --no-verify, three targets: {generating():.2f} s")
     golden(engines.FAST)
     times = {engine: golden(engine) for engine in (engines.PLAIN, engines.FAST)}
     for engine, time in times.items():
