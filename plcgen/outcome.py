@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import atexit
 import errno
-import gc
 import os
 import sys
 from typing import Any
@@ -13,15 +11,11 @@ import click
 
 from plcgen import terminal
 from plcgen.errors import Fault, PlcgenError
+from plcgen.processes import search_seldom
 
 FAILED, BAD_INPUT = 1, 2
 # As a shell reports a program that the keyboard or a closed pipe has ended.
 INTERRUPTED, PIPE_CLOSED = 130, 141
-SELDOM = 50_000
-"""New objects between two searches for circles: trees of sources are many objects and have none.
-
-For the same reason nothing is searched at the end, when all memory goes back at once.
-"""
 DEBUG = "PLCGEN_DEBUG"
 """Environment variable: set to anything, an error inside plcgen itself shows its traceback."""
 
@@ -30,8 +24,7 @@ class Commands(click.Group):
     """Turns whatever goes wrong into one message and an exit code."""
 
     def main(self, *args: Any, **extra: Any) -> Any:
-        gc.set_threshold(SELDOM)
-        atexit.register(gc.freeze)
+        search_seldom()
         terminal.prepare_streams()
         return super().main(*args, **extra)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -10,6 +12,16 @@ from typing import Any, TypeVar
 from plcgen.errors import PlcgenError
 
 T = TypeVar("T")
+
+
+SELDOM = 50_000
+"""New objects between two searches for garbage that holds itself."""
+
+
+def search_seldom() -> None:
+    """Trees of sources are many objects, and none of them holds itself. At the end all memory goes back at once."""
+    gc.set_threshold(SELDOM)
+    atexit.register(gc.freeze)
 
 
 def in_processes(function: Callable[..., T], *columns: Sequence[Any]) -> Iterator[T]:
@@ -31,7 +43,7 @@ def _shared_out(function: Callable[..., T], columns: Sequence[Sequence[Any]], wo
 
     context = multiprocessing.get_context("spawn")
     threading.excepthook = _unless_interrupted
-    with ProcessPoolExecutor(workers, context, _die_quietly) as pool:
+    with ProcessPoolExecutor(workers, context, _begin) as pool:
         try:
             yield from pool.map(function, *columns)
         except BrokenProcessPool:
@@ -46,8 +58,9 @@ def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
         threading.__excepthook__(event)
 
 
-def _die_quietly() -> None:
+def _begin() -> None:
     """An interrupt from the keyboard reaches the workers too; the parent alone speaks of it."""
     import signal
 
+    search_seldom()
     signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -94,7 +94,6 @@ def _named(text: str) -> str:
     text = re.sub(rf"\b({'|'.join(HELPERS)})\(", r"\1(E, ", text)
     text = re.sub(rf"\b({'|'.join(APPROXIMATE)})\(", r"approximate_\1(F[FACTOR], ", text)
     text = re.sub(rf"\b({'|'.join(ROUNDINGS)})\b,", lambda match: f"ROUNDING{ROUNDINGS[match[1]]},", text)
-    text = re.sub(r"\b(real_to_bits|bits_to_real)\(", r"\1(W, V, ", text)
     text = re.sub(r"\bcount\(", "count(T, ", text)
     text = re.sub(r"\btrunc\(", "truncated(", text).replace("sqrt(", "square_root(")
     return re.sub(r"\bint\(", "whole(", text)

@@ -13,9 +13,10 @@ import numpy as np
 from numba import njit
 
 from plcgen.plc.fast.engine import FastEngine
+from plcgen.plc.fast.helpers import bits_to_real, real_to_bits
 from plcgen.plc.fast.vm import DONE, QUIET, enter
 
-VM = "ac4f2de12910a3c3"
+VM = "04be95b35a1b0ef0"
 """Beginning of the SHA-256 of vm.py, written by generate.py."""
 
 ENTRY, MOST_JUMPS, FIRST_BYTE, TRAVEL_AT, VELOCITY_AT, SETPOINT_AT, PHASE_AT, ENDED, FIELDS = range(9)
@@ -27,18 +28,15 @@ compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", nogil=Tru
 
 @compiled
 def _store(memory: Any, at: int, value: float) -> None:
-    cell = np.empty(1, np.float32)
-    cell[0] = value
-    bits = cell.view(np.uint32)[0]
+    bits = real_to_bits(value)
     for place in range(4):
         memory[at + place] = bits >> (24 - 8 * place) & 255
 
 
 @compiled
 def _load(memory: Any, at: int) -> float:
-    cell = np.empty(1, np.uint32)
-    cell[0] = memory[at] << 24 | memory[at + 1] << 16 | memory[at + 2] << 8 | memory[at + 3]
-    return np.float64(cell.view(np.float32)[0])
+    value: float = bits_to_real(memory[at] << 24 | memory[at + 1] << 16 | memory[at + 2] << 8 | memory[at + 3])
+    return value
 
 
 @compiled

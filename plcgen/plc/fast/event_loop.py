@@ -16,7 +16,7 @@ from numba import njit
 from plcgen.plc.fast.engine import FastEngine
 from plcgen.plc.fast.vm import COUNTS, DONE, EVENTS, QUIET, REQUEST, SLOTS, START, enter, run
 
-VM = "ac4f2de12910a3c3"
+VM = "04be95b35a1b0ef0"
 """Beginning of the SHA-256 of vm.py, written by generate.py."""
 
 SPECIAL, IMAGE, OUTPUTS, SIZE, WATCHED, TABLES, TABLES_END, ACCUMULATORS = range(8)

@@ -24,9 +24,9 @@ FIRST_BODY = 32
 HEAD = '''"""The virtual machine. Written by `generate.py`: change that, not this.
 
 `code` holds an instruction a row: number, target, four operands, six numbers and the site. All but memory, M, lies in
-one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), counters T, the stack of calls, events E,
-and behind them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator
-that Python has to evaluate, room for events; or because the budget is spent.
+one piece, `room`: the state, counters, the stack of calls, events, and behind them the slots, seen as integers in I and
+as floats in F. It ends with what it needs: nothing, an operator that Python has to evaluate, room for events; or
+because the budget is spent.
 """
 
 from typing import Any
@@ -63,17 +63,15 @@ def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int)
 '''
 STAMP = re.compile(r'(?<=^VM = ")\w+(?="$)', re.MULTILINE)
 """In the callers."""
-PIECES = (
-    "S = room[:CELL]",
-    "W = room[CELL : CELL + 1].view(np.uint32)",
-    "V = room[CELL : CELL + 1].view(np.float32)",
-    "X = room[CELL + 1 : CELL + 2]",
-    "T = room[COUNTS:STACK]",
-    "stack = room[STACK:EVENTS]",
-    "E = room[EVENTS:SLOTS]",
-    "I = room[SLOTS:]",
-    "F = I.view(np.float64)",
+PIECES = "I = room[SLOTS:]", "F = I.view(np.float64)"
+PLACES = (
+    (re.compile(r"\bS\["), "room["),
+    (re.compile(r"\bstack\["), "room[STACK + "),
+    (re.compile(r"\bE\[0\]"), "room[EVENTS]"),
+    (re.compile(r"\(E, "), "(room[EVENTS:SLOTS], "),
+    (re.compile(r"\(T, "), "(room[COUNTS:STACK], "),
 )
+"""Where the rest of the room lies. Views of it are made where they are needed, which is rare: each costs time."""
 
 
 def written() -> str:
@@ -166,15 +164,16 @@ FIXED: tuple[tuple[str, ...], ...] = (
      "I[t] = x - 65536 if x > 32767 else x"),
     ("p = a + I[b] + (I[c] >> 3)", "I[t] = WORD32"),
     ("p = a + I[b] + (I[c] >> 3)", "x = WORD32", "I[t] = x - 4294967296 if x > 2147483647 else x"),
-    ("p = a + I[b] + (I[c] >> 3)", "W[0] = WORD32", "F[t] = V[0]"),
-    ("p = a + I[b] + (I[c] >> 3)", "for place in range(8):", "    X[0] = X[0] << 8 | M[p + place]", "I[t] = X[0]"),
+    ("p = a + I[b] + (I[c] >> 3)", "F[t] = bits_to_real(WORD32)"),
+    ("p = a + I[b] + (I[c] >> 3)", "x = np.int64(M[p])", "for place in range(1, 8):",
+     "    x = x << 8 | np.int64(M[p + place])", "I[t] = x"),
     # 19 .. : store I[d] to t + bytes I[b] + bits I[c]
     ("bit = t + (I[b] << 3) + I[c]", "if I[d] != 0:", "    M[bit >> 3] |= 1 << (bit & 7)", "else:",
      "    M[bit >> 3] &= 255 - (1 << (bit & 7))"),
     ("M[t + I[b] + (I[c] >> 3)] = I[d] & 255",),
     ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "M[p] = x >> 8 & 255", "M[p + 1] = x & 255"),
     ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "STORE32"),
-    ("p = t + I[b] + (I[c] >> 3)", "V[0] = F[d]", "x = np.int64(W[0])", "STORE32"),
+    ("p = t + I[b] + (I[c] >> 3)", "x = real_to_bits(F[d])", "STORE32"),
     ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "for place in range(8):", "    M[p + 7 - place] = x & 255",
      "    x = x >> 8"),
     # 25: INDEX, (index, low, high, stride)
@@ -186,15 +185,21 @@ STORE32 = ("M[p] = x >> 24 & 255", "M[p + 1] = x >> 16 & 255", "M[p + 2] = x >> 
 
 
 def _loop(bodies: list[Body]) -> Iterator[str]:
-    yield "pc = S[0]"
+    yield "pc = room[START]"
     yield "while True:"
     yield "    op = code[pc, 0]"
     yield "    t, a, b, c, d = code[pc, 1], code[pc, 2], code[pc, 3], code[pc, 4], code[pc, 5]"
     yield "    site = code[pc, 12]"
     for number, block in enumerate(_blocks(bodies)):
         yield f"    {'el' if number else ''}if op == {block[0]}:"
-        yield from (f"        {row}" for row in block[1])
+        yield from (f"        {_placed(row)}" for row in block[1])
     yield "    pc += 1"
+
+
+def _placed(row: str) -> str:
+    for pattern, place in PLACES:
+        row = pattern.sub(place, row)
+    return row
 
 
 def _blocks(bodies: list[Body]) -> Iterator[tuple[int, list[str]]]:

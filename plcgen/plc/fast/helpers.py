@@ -13,6 +13,7 @@ OVERFLOW, INVALID, BY_ZERO, OUT_OF_RANGE = range(4)
 COUNT, DIVIDED, FIRST = 0, 1, 2
 
 compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", inline="never")
+inlined: Callable[[Any], Any] = njit(cache=True, error_model="numpy")
 
 
 @compiled
@@ -110,22 +111,18 @@ def to_integer(E: Any, rounding: int, x: float, minimum: int, bits: int, site: i
             return signed(int(number), minimum, bits)
     else:
         report(E, OUT_OF_RANGE, site)
-    cell = np.empty(1, np.float32)
-    cell[0] = x
-    return signed(np.int64(cell.view(np.uint32)[0]), minimum, bits)
+    return signed(real_to_bits(x), minimum, bits)
 
 
-@compiled
-def real_to_bits(W: Any, V: Any, x: float) -> int:  # noqa: N803 - one cell, seen as its bits and as a number
-    V[0] = x
-    bits: Any = np.int64(W[0])
+@inlined
+def real_to_bits(x: float) -> int:
+    bits: Any = np.int64(np.float32(x).view(np.uint32))
     return bits
 
 
-@compiled
-def bits_to_real(W: Any, V: Any, bits: int) -> float:  # noqa: N803
-    W[0] = bits
-    return np.float64(V[0])
+@inlined
+def bits_to_real(bits: int) -> float:
+    return np.float64(np.uint32(bits).view(np.float32))
 
 
 @compiled

@@ -1,9 +1,9 @@
 """The virtual machine. Written by `generate.py`: change that, not this.
 
 `code` holds an instruction a row: number, target, four operands, six numbers and the site. All but memory, M, lies in
-one piece, `room`: the state S, two cells to see bits as numbers (W and V, X), counters T, the stack of calls, events E,
-and behind them the slots, seen as integers in I and as floats in F. It ends with what it needs: nothing, an operator
-that Python has to evaluate, room for events; or because the budget is spent.
+one piece, `room`: the state, counters, the stack of calls, events, and behind them the slots, seen as integers in I and
+as floats in F. It ends with what it needs: nothing, an operator that Python has to evaluate, room for events; or
+because the budget is spent.
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ from numba import njit
 
 from plcgen.plc.fast.helpers import *
 
-HELPERS = "56b91967aae59a2b"
+HELPERS = "5c6945da79d9b856"
 """Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
 DONE, REQUEST, EXHAUSTED, FULL = range(4)
 QUIET = -1
@@ -175,7 +175,7 @@ BODIES = {
     'approximate_log(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 174,
     'approximate_sin(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 175,
     'approximate_tan(F[FACTOR], A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 176,
-    'bits_to_real(W, V, A)|if|0||': 177,
+    'bits_to_real(A)|if|0||': 177,
     'count(T, A)|ib|0||': 178,
     'not -G0 <= A < G0|fb|0||': 179,
     'not -K0 <= A * B <= K1|iib|0||': 180,
@@ -185,7 +185,7 @@ BODIES = {
     'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|noted(E, R, KIND0, site)': 184,
     'quotient(E, A, B, site)|iii|0|not -K0 <= R <= K1|wrap(E, R, -K0, K2, site)': 185,
     'quotient(E, A, B, site)|iii|0|not 0 <= R <= K0|noted(E, R, KIND0, site)': 186,
-    'real_to_bits(W, V, A)|fi|0||': 187,
+    'real_to_bits(A)|fi|0||': 187,
     'remainder(E, A, B, site) << K0 | quotient(E, A, B, site) & K1 if B else 0|iii|0||': 188,
     'remainder(E, A, B, site)|iii|0||': 189,
     'square_root(A)|ff|1|R and not G0 <= R * R <= G1|special(E, R, site)': 190,
@@ -201,27 +201,20 @@ BODIES = {
 
 @njit(cache=True, error_model="numpy", nogil=True)
 def run(code: Any, room: Any, M: Any) -> int:
-    S = room[:CELL]
-    W = room[CELL : CELL + 1].view(np.uint32)
-    V = room[CELL : CELL + 1].view(np.float32)
-    X = room[CELL + 1 : CELL + 2]
-    T = room[COUNTS:STACK]
-    stack = room[STACK:EVENTS]
-    E = room[EVENTS:SLOTS]
     I = room[SLOTS:]
     F = I.view(np.float64)
-    pc = S[0]
+    pc = room[START]
     while True:
         op = code[pc, 0]
         t, a, b, c, d = code[pc, 1], code[pc, 2], code[pc, 3], code[pc, 4], code[pc, 5]
         site = code[pc, 12]
         if op == 0:
-            if E[0] > MOST_EVENTS:
-                S[0] = pc - 1
+            if room[EVENTS] > MOST_EVENTS:
+                room[0] = pc - 1
                 return FULL
-            S[1] -= 1
-            if S[1] < 0:
-                S[0] = pc
+            room[1] -= 1
+            if room[1] < 0:
+                room[0] = pc
                 return EXHAUSTED
             pc = t - 1
         elif op == 1:
@@ -233,26 +226,26 @@ def run(code: Any, room: Any, M: Any) -> int:
             if I[a] == 0:
                 pc = t - 1
         elif op == 4:
-            if E[0] > MOST_EVENTS:
-                S[0] = pc - 1
+            if room[EVENTS] > MOST_EVENTS:
+                room[0] = pc - 1
                 return FULL
-            S[1] -= 1
-            if S[1] < 0:
-                S[0] = pc
+            room[1] -= 1
+            if room[1] < 0:
+                room[0] = pc
                 return EXHAUSTED
-            stack[S[2]] = pc
-            stack[S[2] + 1] = I[1]
-            S[2] += 2
+            room[STACK + room[2]] = pc
+            room[STACK + room[2] + 1] = I[1]
+            room[2] += 2
             I[1] = I[a] + b
             pc = t - 1
         elif op == 5:
-            if S[2] == 0:
+            if room[2] == 0:
                 return DONE
-            S[2] -= 2
-            pc = stack[S[2]]
-            I[1] = stack[S[2] + 1]
+            room[2] -= 2
+            pc = room[STACK + room[2]]
+            I[1] = room[STACK + room[2] + 1]
         elif op == 6:
-            S[0] = pc
+            room[0] = pc
             return REQUEST
         elif op == 7:
             I[t] = I[a]
@@ -287,13 +280,13 @@ def run(code: Any, room: Any, M: Any) -> int:
             I[t] = x - 4294967296 if x > 2147483647 else x
         elif op == 17:
             p = a + I[b] + (I[c] >> 3)
-            W[0] = np.int64(M[p]) << 24 | np.int64(M[p + 1]) << 16 | np.int64(M[p + 2]) << 8 | np.int64(M[p + 3])
-            F[t] = V[0]
+            F[t] = bits_to_real(np.int64(M[p]) << 24 | np.int64(M[p + 1]) << 16 | np.int64(M[p + 2]) << 8 | np.int64(M[p + 3]))
         elif op == 18:
             p = a + I[b] + (I[c] >> 3)
-            for place in range(8):
-                X[0] = X[0] << 8 | M[p + place]
-            I[t] = X[0]
+            x = np.int64(M[p])
+            for place in range(1, 8):
+                x = x << 8 | np.int64(M[p + place])
+            I[t] = x
         elif op == 19:
             bit = t + (I[b] << 3) + I[c]
             if I[d] != 0:
@@ -316,8 +309,7 @@ def run(code: Any, room: Any, M: Any) -> int:
             M[p + 3] = x & 255
         elif op == 23:
             p = t + I[b] + (I[c] >> 3)
-            V[0] = F[d]
-            x = np.int64(W[0])
+            x = real_to_bits(F[d])
             M[p] = x >> 24 & 255
             M[p + 1] = x >> 16 & 255
             M[p + 2] = x >> 8 & 255
@@ -330,7 +322,7 @@ def run(code: Any, room: Any, M: Any) -> int:
                 x = x >> 8
         elif op == 25:
             if I[a] < I[b] or I[a] > I[c]:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = (I[a] - I[b]) * I[d]
         elif op == 26:
@@ -339,7 +331,7 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 32:
             R = ((I[a] & I[code[pc, 6]]) << I[code[pc, 7]]) + 0 if I[a] >> I[code[pc, 8]] == I[code[pc, 9]] and (I[a] & I[code[pc, 6]]) <= I[code[pc, 10]] else -1 - I[a]
             if R < 0:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = R
         elif op == 33:
@@ -351,25 +343,25 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 36:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]] or R & I[code[pc, 8]]:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = R
         elif op == 37:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]]:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = R
         elif op == 38:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]] or R & I[code[pc, 9]]:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = R
         elif op == 39:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]]:
-                S[0] = pc
+                room[0] = pc
                 return REQUEST
             I[t] = R
         elif op == 40:
@@ -391,13 +383,13 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 48:
             I[t] = (I[a] >> I[b] - 1 & 1) << 1 if I[b] else I[c]
         elif op == 49:
-            I[t] = (remainder(E, I[a], I[b], site) & I[code[pc, 6]]) << I[code[pc, 7]] | quotient(E, I[a], I[b], site) & I[code[pc, 6]] if I[b] else noted(E, I[c], KIND2, site)
+            I[t] = (remainder(room[EVENTS:SLOTS], I[a], I[b], site) & I[code[pc, 6]]) << I[code[pc, 7]] | quotient(room[EVENTS:SLOTS], I[a], I[b], site) & I[code[pc, 6]] if I[b] else noted(room[EVENTS:SLOTS], I[c], KIND2, site)
         elif op == 50:
             F[t] = -F[a]
         elif op == 51:
             R = -I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 52:
             I[t] = 0 if not I[a] or not I[b] else 2 if (I[a] < 0) == (I[b] < 0) else 1
@@ -452,27 +444,27 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 77:
             Q = np.float64(np.float32(F[a] * F[a]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 78:
             Q = np.float64(np.float32(F[a] * F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 79:
             R = I[a] * I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 80:
             R = I[a] * I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 81:
             R = I[a] * I[b]
             if not 0 <= R <= I[code[pc, 6]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 82:
             I[t] = I[a] * I[b]
@@ -485,49 +477,49 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 86:
             Q = np.float64(np.float32(F[a] + F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 87:
             R = I[a] + I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 88:
             R = I[a] + I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 89:
             R = I[a] + I[b]
             if not 0 <= R <= I[code[pc, 6]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 90:
             I[t] = I[a] - I[b] & I[code[pc, 6]]
         elif op == 91:
             Q = np.float64(np.float32(F[a] - F[b]))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 92:
             R = I[a] - I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 93:
             R = I[a] - I[b]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 94:
             R = I[a] - I[b]
             if not 0 <= R <= I[code[pc, 6]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 95:
-            Q = np.float64(np.float32(F[a] / F[b] if F[b] else over_zero(E, F[a], F[b])))
+            Q = np.float64(np.float32(F[a] / F[b] if F[b] else over_zero(room[EVENTS:SLOTS], F[a], F[b])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 96:
             I[t] = 1 if (F[a] < F[b] or F[a] > F[b]) else 0
@@ -622,17 +614,17 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 141:
             R = I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = narrow(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = narrow(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 142:
             R = I[a]
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 143:
             R = I[a]
             if not 0 <= R <= I[code[pc, 6]]:
-                R = narrow(E, R, 0, I[code[pc, 7]], site)
+                R = narrow(room[EVENTS:SLOTS], R, 0, I[code[pc, 7]], site)
             I[t] = R
         elif op == 144:
             I[t] = I[a]
@@ -683,57 +675,57 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 167:
             R = abs(I[a])
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 168:
             Q = np.float64(np.float32(approximate_acos(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 169:
             Q = np.float64(np.float32(approximate_asin(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 170:
             Q = np.float64(np.float32(approximate_atan(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 171:
             Q = np.float64(np.float32(approximate_cos(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 172:
             Q = np.float64(np.float32(approximate_exp(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 173:
             Q = np.float64(np.float32(approximate_ln(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 174:
             Q = np.float64(np.float32(approximate_log(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 175:
             Q = np.float64(np.float32(approximate_sin(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 176:
             Q = np.float64(np.float32(approximate_tan(F[FACTOR], F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 177:
-            F[t] = bits_to_real(W, V, I[a])
+            F[t] = bits_to_real(I[a])
         elif op == 178:
-            I[t] = 1 if (count(T, I[a])) else 0
+            I[t] = 1 if (count(room[COUNTS:STACK], I[a])) else 0
         elif op == 179:
             I[t] = 1 if (not -F[code[pc, 6]] <= F[a] < F[code[pc, 6]]) else 0
         elif op == 180:
@@ -745,48 +737,48 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 183:
             I[t] = 1 if (not I[a]) else 0
         elif op == 184:
-            R = quotient(E, I[a], I[b], site)
+            R = quotient(room[EVENTS:SLOTS], I[a], I[b], site)
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 185:
-            R = quotient(E, I[a], I[b], site)
+            R = quotient(room[EVENTS:SLOTS], I[a], I[b], site)
             if not -I[code[pc, 6]] <= R <= I[code[pc, 7]]:
-                R = wrap(E, R, -I[code[pc, 6]], I[code[pc, 8]], site)
+                R = wrap(room[EVENTS:SLOTS], R, -I[code[pc, 6]], I[code[pc, 8]], site)
             I[t] = R
         elif op == 186:
-            R = quotient(E, I[a], I[b], site)
+            R = quotient(room[EVENTS:SLOTS], I[a], I[b], site)
             if not 0 <= R <= I[code[pc, 6]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 187:
-            I[t] = real_to_bits(W, V, F[a])
+            I[t] = real_to_bits(F[a])
         elif op == 188:
-            I[t] = remainder(E, I[a], I[b], site) << I[code[pc, 6]] | quotient(E, I[a], I[b], site) & I[code[pc, 7]] if I[b] else 0
+            I[t] = remainder(room[EVENTS:SLOTS], I[a], I[b], site) << I[code[pc, 6]] | quotient(room[EVENTS:SLOTS], I[a], I[b], site) & I[code[pc, 7]] if I[b] else 0
         elif op == 189:
-            I[t] = remainder(E, I[a], I[b], site)
+            I[t] = remainder(room[EVENTS:SLOTS], I[a], I[b], site)
         elif op == 190:
             Q = np.float64(np.float32(square_root(F[a])))
             if Q and not F[code[pc, 6]] <= Q * Q <= F[code[pc, 7]]:
-                Q = special(E, Q, site)
+                Q = special(room[EVENTS:SLOTS], Q, site)
             F[t] = Q
         elif op == 191:
-            I[t] = to_integer(E, ROUNDING0, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(room[EVENTS:SLOTS], ROUNDING0, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 192:
-            I[t] = to_integer(E, ROUNDING1, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(room[EVENTS:SLOTS], ROUNDING1, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 193:
-            I[t] = to_integer(E, ROUNDING2, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(room[EVENTS:SLOTS], ROUNDING2, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 194:
-            I[t] = to_integer(E, ROUNDING3, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
+            I[t] = to_integer(room[EVENTS:SLOTS], ROUNDING3, F[a], -I[code[pc, 6]], I[code[pc, 7]], site)
         elif op == 195:
             R = truncated(F[a]) if -F[code[pc, 6]] < F[a] < F[code[pc, 7]] else I[code[pc, 8]]
             if not -I[code[pc, 8]] <= R <= I[code[pc, 10]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 196:
             R = whole(F[a] + (F[code[pc, 6]] if F[a] > 0.0 else -F[code[pc, 6]])) if -F[code[pc, 7]] < F[a] < F[code[pc, 8]] else I[code[pc, 9]]
             if not -I[code[pc, 9]] <= R <= I[code[pc, 11]]:
-                R = noted(E, R, KIND0, site)
+                R = noted(room[EVENTS:SLOTS], R, KIND0, site)
             I[t] = R
         elif op == 197:
             I[t] = whole(I[a])
