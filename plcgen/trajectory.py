@@ -65,9 +65,17 @@ class Trajectory:
 
 
 def _spell(column: Column) -> list[str]:
+    if column.dtype == np.float64:
+        return [_positional(value) for value in column.tolist()]
     if column.dtype.kind == "f":
         return [np.format_float_positional(value, unique=True, trim="-") for value in column]
     return [str(int(value)) for value in column]
+
+
+def _positional(value: float) -> str:
+    """As NumPy spells it. Python is quicker, but goes over to exponents."""
+    text = repr(value)
+    return np.format_float_positional(value, unique=True, trim="-") if "e" in text else text.removesuffix(".0")
 
 
 def disagreements(traces: Mapping[str, Trajectory]) -> Iterator[str]:

@@ -44,6 +44,13 @@ def test_every_value_survives(doubles: list[float], singles: list[float]) -> Non
     assert np.array_equal(again, single, equal_nan=True)
 
 
+@given(st.floats())
+@settings(max_examples=500)
+def test_numbers_are_spelt_without_exponents(value: float) -> None:
+    spelt = Trajectory({"x": np.array([value])}).to_csv().splitlines()[1]
+    assert spelt == np.format_float_positional(value, unique=True, trim="-")
+
+
 def test_length_and_rows() -> None:
     assert (len(EXAMPLE), len(Trajectory({}))) == (3, 0)
     assert EXAMPLE.rows(np.array([2, 0]))["phase"].tolist() == [3, 1]
