@@ -89,10 +89,11 @@ class LoopedScans(ABC):
             self.scan()
         return rows or 1
 
-    def run_interrupts(self, event: int, most: int, recorded: range, byte: int = 0, mask: int = 0) -> bytes:
+    def run_interrupts(self, event: int, most: int, recorded: range, byte: int, mask: int) -> bytes:
         """Run the routine of an event so many times, here and now, up to one that leaves a bit of V memory set.
 
-        `recorded` are bytes of V memory, `byte` is one of them; returned is what they hold after each run.
+        `recorded` are bytes of V memory, `byte` is one of them, `mask` 0 for none; returned is what they hold after
+        each run.
         """
         loop = self._calls(event, recorded)
         if loop is None:

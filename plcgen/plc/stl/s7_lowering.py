@@ -58,7 +58,7 @@ def _functions(blocks: Sequence[Block], catalogue: Catalogue, told: frozenset[Re
     handovers = Handovers()
     for block in blocks:
         if block.declaration.kind is BlockKind.FB:
-            handovers.exit[block.name] |= told
+            handovers.exit[catalogue.absolute(block.name)] |= told
     functions = [_function(block, catalogue, handovers) for block in blocks]
     written = [_needed(function, handovers) for function in functions]
     while True:

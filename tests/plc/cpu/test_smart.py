@@ -359,7 +359,9 @@ def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pyt
     scan_us, ways = random.choice([900, 5000]), random.choice([("Q0.4", "Q0.5"), ("Q0.5", "Q0.4")])
     directions = dict(zip(("Q0.0", "Q0.1"), ways, strict=True))
     lateness = random.choice([None, lambda tick: tick * 7919 % 2300])
-    single, quick = (Smart(program, scan_us, lateness, directions=directions) for _ in range(2))
+    begins = random.sample(range(300_000), random.choice([0, 0, 3, 40]))
+    blocked = [(begin, begin + random.randrange(1, 9000)) for begin in begins]
+    single, quick = (Smart(program, scan_us, lateness, blocked, directions=directions) for _ in range(2))
     done = 0
     while done < 260:
         batch = random.randrange(1, 60)
