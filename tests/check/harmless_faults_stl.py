@@ -43,7 +43,6 @@ HARMLESS: dict[str, dict[str, tuple[str, ...]]] = {
             "Tick 20 | LDD> pulses +0 -> LDD>= pulses +0",
             "Tick 22 | LDD> pulses +0 -> LDD>= pulses +0",
             "Tick 24 | LDD> pulses +0 -> LDD>= pulses +0",
-            "Tick 25 | LDD> pulses +0 -> LDD>= pulses +0",
             "Start 7 | LDD< distance_x +0 -> LDD<= distance_x +0",
             "Start 8 | LDD< distance_y +0 -> LDD<= distance_y +0",
             "Start 9 | LDD< lead ignore -> LDD<= lead ignore",
