@@ -23,10 +23,7 @@ from plcgen.plc.scl.lowering import lower as lower_scl
 from plcgen.plc.scl.parser import parse as parse_scl
 from plcgen.plc.source import SourceText, Span
 from plcgen.plc.stl import s7_operators, smart_operators
-from plcgen.plc.stl.s7_lowering import lower
-from plcgen.plc.stl.s7_parser import parse
 from plcgen.plc.types import BOOL, Elementary, Type
-from tests.plc.stl.s7_programs import calls, program
 
 pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
 
@@ -135,19 +132,6 @@ def test_the_machine_is_what_its_generator_writes() -> None:
 
 
 # ------------------------------------------------------------------------------------------------------- programs
-
-
-@pytest.mark.parametrize("batch", range(25))
-def test_random_programs_leave_the_same_memory(monkeypatch: pytest.MonkeyPatch, batch: int) -> None:
-    random = Random(batch)
-    numbers = range(1, 81)
-    source = "".join(program(random, number) for number in numbers) + calls(numbers)
-    machines = pair(monkeypatch, lower(parse(SourceText("random.awl", source))))
-    for machine in machines.values():
-        machine.call("OB1")
-    plain, fast = machines.values()
-    assert {name: bytes(data) for name, data in plain.memory.items()} == {n: bytes(d) for n, d in fast.memory.items()}
-    assert plain.faults == fast.faults
 
 
 @pytest.mark.parametrize(("case", "target"), [("short-shaft", "s7-300-scl"), ("ramps", "s7-300-stl")])
