@@ -1,4 +1,7 @@
-"""The compiled engine against the plain one: every operator, random programs, golden blocks; bit for bit."""
+"""The compiled engine against the plain one: every operator, and golden blocks; bit for bit.
+
+Random programs: see tests/plc/stl/test_awlsim.py and tests/plc/cpu/test_smart.py.
+"""
 
 from __future__ import annotations
 

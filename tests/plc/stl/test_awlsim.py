@@ -87,6 +87,10 @@ def engine() -> None:
     """These programs run on every engine that there is, in one test: to lower them takes longest."""
 
 
+def contents(machine: Machine) -> dict[object, bytes]:
+    return {area: bytes(data) for area, data in machine.memory.items()}
+
+
 def ran(lowered: Program, engine: str, monkeypatch: pytest.MonkeyPatch) -> Machine:
     monkeypatch.setenv(engines.VARIABLE, engine)
     machine = Machine(lowered)
@@ -105,9 +109,7 @@ def test_random_programs_leave_the_same_memory(batch: int, monkeypatch: pytest.M
     plain = ran(lowered, engines.PLAIN, monkeypatch)
     if find_spec("numba"):
         fast = ran(lowered, engines.FAST, monkeypatch)
-        assert {name: bytes(data) for name, data in plain.memory.items()} == {
-            n: bytes(d) for n, d in fast.memory.items()
-        }
+        assert contents(plain) == contents(fast)
         assert plain.faults == fast.faults
     simulator = load(source)
     simulator.runCycle()
