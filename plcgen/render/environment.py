@@ -23,8 +23,14 @@ def column(value: object, width: int) -> str:
 class CompiledTemplates(FileSystemBytecodeCache):
     """Templates compiled by earlier runs, by the digest of their text: compiling is a quarter of a quick command.
 
-    What cannot be kept is compiled again next time.
+    What cannot be kept, or read again, is compiled again.
     """
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        try:
+            super().load_bytecode(bucket)
+        except Exception:  # a file that was cut off fails in many ways
+            bucket.reset()
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         with suppress(OSError):

@@ -185,6 +185,20 @@ def test_compiled_templates_are_kept_and_follow_the_text(fresh: Path, monkeypatc
     assert render("a", {"x": 2}) == "y := 2;"
 
 
+@pytest.mark.parametrize("kept", [0, 4, 20, 40, 60, -1])
+def test_a_compiled_template_that_was_cut_off_is_compiled_again(
+    fresh: Path, monkeypatch: pytest.MonkeyPatch, kept: int
+) -> None:
+    monkeypatch.setattr("plcgen.render.environment._loader", lambda _language: DictLoader({"a": "x := {{ x }};"}))
+    assert render("a", {"x": 1}) == "x := 1;"
+    (file,) = fresh.rglob("plcgen_en_*.cache")
+    whole = file.read_bytes()
+    file.write_bytes(whole[:kept])
+    environment.cache_clear()
+    assert render("a", {"x": 2}) == "x := 2;"
+    assert file.read_bytes() == whole
+
+
 def test_a_folder_that_takes_no_files_is_no_obstacle(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_arguments: object, **_keywords: object) -> None:
         raise OSError(28, "No space left on device")
