@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from plcgen.estimates import Estimate, Files, run_time
+from plcgen.loading import smart_sources
 from plcgen.plc.effort.smart import code_bytes, smart_routines
-from plcgen.plc.source import decode_source
-from plcgen.plc.stl.parser import parse
 from plcgen.plc.stl.smart_costs import COSTS
 from plcgen.plc.stl.syntax import Block
-from plcgen.targets import SMART
 
 MICROSECOND = 1e-6
 SMART_ORIGIN = (
@@ -28,6 +26,6 @@ def smart_estimate(files: Files, data_bytes: int) -> Estimate:
 
 def _separate(files: Files) -> Sequence[Block]:
     """Each block once: a file that joins them repeats the others."""
-    parsed = [parse(decode_source(name, data)) for name, data in files.items() if name.endswith(SMART.suffix)]
+    parsed = [blocks for _, blocks in smart_sources(files)]
     joined = [blocks for blocks in parsed if len(blocks) > 1]
     return [block for blocks in joined or parsed for block in blocks]

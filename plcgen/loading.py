@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from plcgen.plc.source import decode_source
-from plcgen.targets import TARGETS
+from plcgen.plc.source import SourceText, decode_source
+from plcgen.targets import SMART, TARGETS
 
 # Each language is imported when a source of it is read: a command that only generates is quick.
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from plcgen.plc.scl.dialects import Dialect
     from plcgen.plc.scl.syntax import Block as SclBlock
     from plcgen.plc.stl.s7_syntax import Block as StlBlock
+    from plcgen.plc.stl.syntax import Block as SmartBlock
 
 
 def load(target: str, files: Mapping[str, bytes]) -> Program:
@@ -43,16 +44,32 @@ def load_smart(name: str, files: Mapping[str, bytes], timed: bool = False) -> Pr
     `timed`: with what counts its run time.
     """
     joined = f"{name}.awl"
-    names = [joined] if joined in files else sorted(name for name in files if name.endswith(".awl"))
+    names = [joined] if joined in files else sorted(filter(_is_smart, files))
     return _load_smart(tuple((name, files[name]) for name in names), timed)
 
 
 @lru_cache(maxsize=8)
 def _load_smart(entries: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
     from plcgen.plc.stl.lowering import lower
+
+    return lower([block for name, data in entries for block in read_smart(name, data)], timed=timed)
+
+
+@lru_cache(maxsize=32)
+def read_smart(name: str, data: bytes) -> tuple[SmartBlock, ...]:
+    """The blocks of one file for the SMART."""
     from plcgen.plc.stl.parser import parse
 
-    return lower([block for name, data in entries for block in parse(decode_source(name, data))], timed=timed)
+    return tuple(parse(decode_source(name, data)))
+
+
+def smart_sources(files: Mapping[str, bytes]) -> list[tuple[SourceText, tuple[SmartBlock, ...]]]:
+    """Every file for the SMART, with its blocks."""
+    return [(decode_source(name, files[name]), read_smart(name, files[name])) for name in files if _is_smart(name)]
+
+
+def _is_smart(name: str) -> bool:
+    return name.endswith(SMART.suffix)
 
 
 def read_stl(files: Mapping[str, bytes]) -> list[StlBlock]:

@@ -14,7 +14,7 @@ from plcgen.check.cosine_model import Axis, Command, CosineModel, Motion, MoveMo
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.job import Job
 from plcgen.jobfile_cosine import CENTRED
-from plcgen.loading import load, load_smart
+from plcgen.loading import load, load_smart, smart_sources
 from plcgen.plan import Comparison, Derivation, Files, Plan, Progress, Stretch
 from plcgen.profile.constants import ConstantGroup
 from plcgen.profile.cosine import Ramps, cosine_constants
@@ -91,7 +91,7 @@ class CosinePlan(Plan):
     def _imported(self, target: str, files: Files) -> tuple[Check, ...]:
         from plcgen.check.imported import import_check
 
-        return (import_check(files),) if target == SMART.name else ()
+        return (import_check(smart_sources(files)),) if target == SMART.name else ()
 
     def golden_trace(self, target: str, files: Files) -> Trajectory:
         from plcgen.check.cosine import nominal_trace

@@ -12,7 +12,7 @@ from plcgen.check.two_axis_model import MoveModel, TwoAxisModel
 from plcgen.check.verdict import TargetVerdict
 from plcgen.job import Job
 from plcgen.jobfile_two_axis import LONGEST_MOVE, Move
-from plcgen.loading import load_smart
+from plcgen.loading import load_smart, smart_sources
 from plcgen.plan import Derivation, Files, Plan, Progress, Stretch
 from plcgen.profile.reference import Reference
 from plcgen.profile.seven_phase import time_optimal
@@ -70,7 +70,7 @@ class TwoAxisPlan(Plan):
         from plcgen.check.imported import import_check
         from plcgen.check.two_axis import verify_two_axis
 
-        checks = (import_check(files), *verify_two_axis(self.subject(files), progress, fail_fast).checks)
+        checks = (import_check(smart_sources(files)), *verify_two_axis(self.subject(files), progress, fail_fast).checks)
         return TargetVerdict(checks)
 
     def reserved_bytes(self, _target: str) -> int:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 from plcgen.check.verdict import Check
 from plcgen.plc.importrules.s7_smart import findings
-from plcgen.plc.source import decode_source
-from plcgen.plc.stl.parser import parse
+from plcgen.plc.source import SourceText
+from plcgen.plc.stl.syntax import Block
 
 
-def import_check(files: Mapping[str, bytes]) -> Check:
+def import_check(parsed: Sequence[tuple[SourceText, tuple[Block, ...]]]) -> Check:
     """What Micro/WIN would leave out of the blocks without a word: the interpreter runs what is written."""
-    sources = [decode_source(name, data) for name, data in files.items() if name.endswith(".awl")]
-    parsed = [(source, parse(source)) for source in sources]
     # What the block of a file by itself calls stands in other such files.
     alone = [block for _, blocks in parsed if len(blocks) == 1 for block in blocks]
     found = [
