@@ -24,9 +24,9 @@ ENTRY_BYTES = 12
 UPDATE_FREQUENCY, UPDATE_COUNT, TABLE, PULSES, ENABLE = 0x01, 0x04, 0x20, 0x40, 0x80
 """Bits of the control byte."""
 STOPPED, OVERRUN, IDLE = 0x20, 0x40, 0x80
-LEFT = 0x70
-"""Bits of the status that only a program takes away."""
 """Bits of the status byte."""
+LEFT = 0x70
+"""Those that only a program takes away."""
 
 
 @dataclass(frozen=True)

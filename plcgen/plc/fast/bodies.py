@@ -121,12 +121,14 @@ def lines(body: Body) -> Sequence[str]:
     slots = {letter: f"{_VIEW[kind]}[{letter.lower()}]" for letter, kind in zip("ABCD", body.kinds[:-1], strict=False)}
     slots |= {f"K{n}": f"I[code[pc, {6 + n}]]" for n in range(MOST_NUMBERS)}
     slots |= {f"G{n}": f"F[code[pc, {6 + n}]]" for n in range(MOST_NUMBERS)}
+    # Views of the room, made where they are needed, which is rare: each costs time.
+    slots |= {"E": "room[EVENTS:SLOTS]", "T": "room[COUNTS:STACK]"}
 
     # Numba gives a name one type: R is an integer, Q a float.
     slots["R"] = found = "Q" if result == "f" else "R"
 
     def filled(text: str) -> str:
-        return re.sub(r"\b(?:[ABCDR]|[KG]\d)\b", lambda match: slots[match[0]], text)
+        return re.sub(r"\b(?:[ABCDERT]|[KG]\d)\b", lambda match: slots[match[0]], text)
 
     target = f"{'F' if result == 'f' else 'I'}[t]"
     expression = filled(body.expression)
@@ -134,6 +136,6 @@ def lines(body: Body) -> Sequence[str]:
         expression = f"np.float64(np.float32({expression}))"
     if not body.check:
         return [f"{target} = 1 if ({expression}) else 0" if result == "b" else f"{target} = {expression}"]
-    repair = ["S[0] = pc", "return REQUEST"] if body.stops else [f"{found} = {filled(body.repair)}"]
+    repair = ["room[START] = pc", "return REQUEST"] if body.stops else [f"{found} = {filled(body.repair)}"]
     checked = [f"if {filled(body.check)}:", *(f"    {line}" for line in repair)]
     return [f"{found} = {expression}", *checked, f"{target} = {found}"]

@@ -92,7 +92,7 @@ class FastEngine:
         self._integers[:] = image.slots
         self._floats = self._integers.view(np.float64)
         self._floats[FACTOR] = 1.0 + function_error
-        self._events, self._state = self._room[vm.EVENTS : vm.SLOTS], self._room[: vm.CELL]
+        self._events, self._state = self._room[vm.EVENTS : vm.SLOTS], self._room[: vm.COUNTS]
         self._counts = self._room[vm.COUNTS : vm.COUNTS + COUNTERS]
         self.parts = self._code, self._room, self._memory
         self._names = library(lambda kind, site: note(kind, self._sites[site]), self._out_of_bounds, function_error) | {

@@ -48,7 +48,7 @@ BASE = 1
 FACTOR = 3
 KIND0, KIND1, KIND2, KIND3 = range(4)
 ROUNDING0, ROUNDING1, ROUNDING2, ROUNDING3 = range(4)
-CELL, COUNTS, STACK, EVENTS, SLOTS = 8, 16, 80, 8208, 8208 + 131072
+COUNTS, STACK, EVENTS, SLOTS = 16, 80, 8208, 8208 + 131072
 MOST_EVENTS = 30000
 """Noted before Python is told: the others fit between two jumps backwards."""
 '''
@@ -64,14 +64,6 @@ def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int)
 STAMP = re.compile(r'(?<=^VM = ")\w+(?="$)', re.MULTILINE)
 """In the callers."""
 PIECES = "I = room[SLOTS:]", "F = I.view(np.float64)"
-PLACES = (
-    (re.compile(r"\bS\["), "room["),
-    (re.compile(r"\bstack\["), "room[STACK + "),
-    (re.compile(r"\bE\[0\]"), "room[EVENTS]"),
-    (re.compile(r"\(E, "), "(room[EVENTS:SLOTS], "),
-    (re.compile(r"\(T, "), "(room[COUNTS:STACK], "),
-)
-"""Where the rest of the room lies. Views of it are made where they are needed, which is rare: each costs time."""
 
 
 def written() -> str:
@@ -139,18 +131,19 @@ def _parametrised() -> Iterator[Operator]:
 
 # ----------------------------------------------------------------------------------------------------- the loop
 
-TELL = ("if E[0] > MOST_EVENTS:", "    S[0] = pc - 1", "    return FULL")
-SPEND = ("S[1] -= 1", "if S[1] < 0:", "    S[0] = pc", "    return EXHAUSTED")
+TELL = ("if room[EVENTS] > MOST_EVENTS:", "    room[START] = pc - 1", "    return FULL")
+SPEND = ("room[BUDGET] -= 1", "if room[BUDGET] < 0:", "    room[START] = pc", "    return EXHAUSTED")
 FIXED: tuple[tuple[str, ...], ...] = (
     # 0 .. : control
     (*TELL, *SPEND, "pc = t - 1"),  # jump backwards
     ("pc = t - 1",),
     ("if I[a] != 0:", "    pc = t - 1"),
     ("if I[a] == 0:", "    pc = t - 1"),
-    (*TELL, *SPEND, "stack[S[2]] = pc", "stack[S[2] + 1] = I[1]", "S[2] += 2", "I[1] = I[a] + b",
-     "pc = t - 1"),  # call
-    ("if S[2] == 0:", "    return DONE", "S[2] -= 2", "pc = stack[S[2]]", "I[1] = stack[S[2] + 1]"),  # return
-    ("S[0] = pc", "return REQUEST"),
+    (*TELL, *SPEND, "room[STACK + room[CALLS]] = pc", "room[STACK + room[CALLS] + 1] = I[1]", "room[CALLS] += 2",
+     "I[1] = I[a] + b", "pc = t - 1"),  # call
+    ("if room[CALLS] == 0:", "    return DONE", "room[CALLS] -= 2", "pc = room[STACK + room[CALLS]]",
+     "I[1] = room[STACK + room[CALLS] + 1]"),  # return
+    ("room[START] = pc", "return REQUEST"),
     ("I[t] = I[a]",),
     ("for place in range(b):", "    M[t + place] = c"),  # fill
     ("p, bit = t + I[a] + (I[b] >> 3), c + I[d] + (I[code[pc, 7]] >> 3)", "for place in range(code[pc, 6]):",
@@ -177,7 +170,7 @@ FIXED: tuple[tuple[str, ...], ...] = (
     ("p = t + I[b] + (I[c] >> 3)", "x = I[d]", "for place in range(8):", "    M[p + 7 - place] = x & 255",
      "    x = x >> 8"),
     # 25: INDEX, (index, low, high, stride)
-    ("if I[a] < I[b] or I[a] > I[c]:", "    S[0] = pc", "    return REQUEST", "I[t] = (I[a] - I[b]) * I[d]"),
+    ("if I[a] < I[b] or I[a] > I[c]:", "    room[START] = pc", "    return REQUEST", "I[t] = (I[a] - I[b]) * I[d]"),
     ("for place in range(b):", "    I[t + place] = I[a + place]"),  # spread
 )  # fmt: skip
 WORD32 = "np.int64(M[p]) << 24 | np.int64(M[p + 1]) << 16 | np.int64(M[p + 2]) << 8 | np.int64(M[p + 3])"
@@ -192,14 +185,8 @@ def _loop(bodies: list[Body]) -> Iterator[str]:
     yield "    site = code[pc, 12]"
     for number, block in enumerate(_blocks(bodies)):
         yield f"    {'el' if number else ''}if op == {block[0]}:"
-        yield from (f"        {_placed(row)}" for row in block[1])
+        yield from (f"        {row}" for row in block[1])
     yield "    pc += 1"
-
-
-def _placed(row: str) -> str:
-    for pattern, place in PLACES:
-        row = pattern.sub(place, row)
-    return row
 
 
 def _blocks(bodies: list[Body]) -> Iterator[tuple[int, list[str]]]:

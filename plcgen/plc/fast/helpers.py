@@ -13,7 +13,6 @@ OVERFLOW, INVALID, BY_ZERO, OUT_OF_RANGE = range(4)
 COUNT, DIVIDED, FIRST = 0, 1, 2
 
 compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", inline="never")
-inlined: Callable[[Any], Any] = njit(cache=True, error_model="numpy")
 
 
 @compiled
@@ -114,13 +113,13 @@ def to_integer(E: Any, rounding: int, x: float, minimum: int, bits: int, site: i
     return signed(real_to_bits(x), minimum, bits)
 
 
-@inlined
+@compiled
 def real_to_bits(x: float) -> int:
     bits: Any = np.int64(np.float32(x).view(np.uint32))
     return bits
 
 
-@inlined
+@compiled
 def bits_to_real(bits: int) -> float:
     return np.float64(np.uint32(bits).view(np.float32))
 

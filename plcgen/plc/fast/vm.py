@@ -13,7 +13,7 @@ from numba import njit
 
 from plcgen.plc.fast.helpers import *
 
-HELPERS = "5c6945da79d9b856"
+HELPERS = "b3b9af3a7962a471"
 """Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
 DONE, REQUEST, EXHAUSTED, FULL = range(4)
 QUIET = -1
@@ -25,7 +25,7 @@ BASE = 1
 FACTOR = 3
 KIND0, KIND1, KIND2, KIND3 = range(4)
 ROUNDING0, ROUNDING1, ROUNDING2, ROUNDING3 = range(4)
-CELL, COUNTS, STACK, EVENTS, SLOTS = 8, 16, 80, 8208, 8208 + 131072
+COUNTS, STACK, EVENTS, SLOTS = 16, 80, 8208, 8208 + 131072
 MOST_EVENTS = 30000
 """Noted before Python is told: the others fit between two jumps backwards."""
 
@@ -210,11 +210,11 @@ def run(code: Any, room: Any, M: Any) -> int:
         site = code[pc, 12]
         if op == 0:
             if room[EVENTS] > MOST_EVENTS:
-                room[0] = pc - 1
+                room[START] = pc - 1
                 return FULL
-            room[1] -= 1
-            if room[1] < 0:
-                room[0] = pc
+            room[BUDGET] -= 1
+            if room[BUDGET] < 0:
+                room[START] = pc
                 return EXHAUSTED
             pc = t - 1
         elif op == 1:
@@ -227,25 +227,25 @@ def run(code: Any, room: Any, M: Any) -> int:
                 pc = t - 1
         elif op == 4:
             if room[EVENTS] > MOST_EVENTS:
-                room[0] = pc - 1
+                room[START] = pc - 1
                 return FULL
-            room[1] -= 1
-            if room[1] < 0:
-                room[0] = pc
+            room[BUDGET] -= 1
+            if room[BUDGET] < 0:
+                room[START] = pc
                 return EXHAUSTED
-            room[STACK + room[2]] = pc
-            room[STACK + room[2] + 1] = I[1]
-            room[2] += 2
+            room[STACK + room[CALLS]] = pc
+            room[STACK + room[CALLS] + 1] = I[1]
+            room[CALLS] += 2
             I[1] = I[a] + b
             pc = t - 1
         elif op == 5:
-            if room[2] == 0:
+            if room[CALLS] == 0:
                 return DONE
-            room[2] -= 2
-            pc = room[STACK + room[2]]
-            I[1] = room[STACK + room[2] + 1]
+            room[CALLS] -= 2
+            pc = room[STACK + room[CALLS]]
+            I[1] = room[STACK + room[CALLS] + 1]
         elif op == 6:
-            room[0] = pc
+            room[START] = pc
             return REQUEST
         elif op == 7:
             I[t] = I[a]
@@ -322,7 +322,7 @@ def run(code: Any, room: Any, M: Any) -> int:
                 x = x >> 8
         elif op == 25:
             if I[a] < I[b] or I[a] > I[c]:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = (I[a] - I[b]) * I[d]
         elif op == 26:
@@ -331,7 +331,7 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 32:
             R = ((I[a] & I[code[pc, 6]]) << I[code[pc, 7]]) + 0 if I[a] >> I[code[pc, 8]] == I[code[pc, 9]] and (I[a] & I[code[pc, 6]]) <= I[code[pc, 10]] else -1 - I[a]
             if R < 0:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = R
         elif op == 33:
@@ -343,25 +343,25 @@ def run(code: Any, room: Any, M: Any) -> int:
         elif op == 36:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]] or R & I[code[pc, 8]]:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = R
         elif op == 37:
             R = (I[a] & I[code[pc, 6]]) + 0
             if R > I[code[pc, 7]]:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = R
         elif op == 38:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]] or R & I[code[pc, 9]]:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = R
         elif op == 39:
             R = (I[a] & I[code[pc, 6]]) + I[code[pc, 7]]
             if R > I[code[pc, 8]]:
-                room[0] = pc
+                room[START] = pc
                 return REQUEST
             I[t] = R
         elif op == 40:
