@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -14,6 +15,7 @@ from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.source import SourceText
+from tests.every_engine import CHOICES, choose
 
 # Overflows where the sum passes the range; `even` and `tenth` are bits of one byte; the index is outside from 60 on.
 COUNTER = """
@@ -47,11 +49,9 @@ def axis() -> S7Axis:
     return S7Axis(lower(parse(SourceText("counter.scl", COUNTER), CLASSIC), CLASSIC), "FB1", "DB1")
 
 
-@pytest.fixture(params=engines.ENGINES, autouse=True)
-def engine(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    if request.param == engines.FAST:
-        pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv(engines.VARIABLE, request.param)
+@pytest.fixture(params=CHOICES, autouse=True)
+def engine(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> str:
+    choose(request.param, monkeypatch, tmp_path)
     return str(request.param)
 
 
@@ -80,7 +80,7 @@ def test_events_and_faults_have_their_scan() -> None:
 def test_many_samples_at_once_are_what_single_ones_are(seed: int, engine: str) -> None:
     random = Random(seed)
     quick, single = axis(), axis()
-    assert (quick._loop is not None) == (engine == engines.FAST)
+    assert (quick._loop is None) == (engine == engines.PLAIN)
     while quick.scans < 45:
         growth, most, until = random.uniform(0.0, 2e38), random.randrange(1, 15), random.choice(["", "even", "tenth"])
         for one in (quick, single):

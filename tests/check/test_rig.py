@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -14,6 +15,7 @@ from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.source import SourceText
+from tests.every_engine import CHOICES, QUICK, choose
 
 FOLLOWER = """
 FUNCTION_BLOCK FB1
@@ -130,11 +132,11 @@ TROUBLED = FOLLOWER.replace(
 ).replace("    phase : INT;\n", "    phase : INT;\n    table : ARRAY[0..12] OF REAL;\n")
 
 
-@pytest.mark.parametrize("engine", ["plain", "fast"])
-def test_events_and_faults_on_the_way_have_their_scan(engine: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    if engine == "fast":
-        pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv("PLCGEN_ENGINE", engine)
+@pytest.mark.parametrize("engine", CHOICES)
+def test_events_and_faults_on_the_way_have_their_scan(
+    engine: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    choose(engine, monkeypatch, tmp_path)
     rig = follower(Clock(0.5), text=TROUBLED)
     with pytest.raises(Fault) as caught:
         rig.run(40)
@@ -146,11 +148,13 @@ def test_events_and_faults_on_the_way_have_their_scan(engine: str, monkeypatch: 
     ]
 
 
+@pytest.mark.parametrize("engine", QUICK)
 @pytest.mark.parametrize("seed", range(40))
-def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_scans_at_once_are_what_single_ones_are(
+    seed: int, engine: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     """Whatever the clock, the encoder, the goal, and the order of single scans and runs, on the compiled engine."""
-    pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+    choose(engine, monkeypatch, tmp_path)
     random = Random(seed)
     clock = Clock(random.choice([0.5, 0.013]), random.choice([0.0, 0.2]), seed)
     encoder = Encoder(random.choice([0.0, 0.001, 0.75]), random.randrange(4))

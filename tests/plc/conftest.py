@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
 import pytest
 
-from plcgen.plc import engines
 from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.lowering import lower
 from plcgen.plc.stl.parser import parse
+from tests.every_engine import CHOICES, choose
 
 HEADS = {"OB": "ORGANIZATION_BLOCK", "SB": "SUBROUTINE_BLOCK", "IN": "INTERRUPT_BLOCK"}
 
@@ -29,12 +30,10 @@ def _block(name: str, body: str) -> str:
     return f"{word} {name}:{name}\n{declarations}BEGIN\n{numbered}END_{word}\n"
 
 
-@pytest.fixture(autouse=True, params=engines.ENGINES)
-def engine(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Every program of these tests runs on both engines. Tests that compare them themselves choose for themselves."""
-    if request.param == engines.FAST:
-        pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
-    monkeypatch.setenv(engines.VARIABLE, request.param)
+@pytest.fixture(autouse=True, params=CHOICES)
+def engine(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> str:
+    """Every program of these tests runs on every engine. Tests that compare them choose for themselves."""
+    choose(request.param, monkeypatch, tmp_path)
     return str(request.param)
 
 

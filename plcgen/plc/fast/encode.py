@@ -29,7 +29,7 @@ from plcgen.plc.core import (
     Register,
     Return,
 )
-from plcgen.plc.fast.bodies import MOST_NUMBERS, SHIFTS, body_of, kind_of
+from plcgen.plc.fast.bodies import MOST_NUMBERS, SHIFTS, Body, body_of, kind_of
 from plcgen.plc.operators import INDEX, Operator
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
@@ -82,6 +82,7 @@ class Code:
     data: dict[int, bytes] = field(default_factory=dict)
     requests: dict[int, Request] = field(default_factory=dict)
     entries: dict[str, Entry] = field(default_factory=dict)
+    bodies: dict[int, Body] = field(default_factory=dict)
     slots: int = FIRST_SLOT
     _known: dict[bytes, int] = field(default_factory=dict)
 
@@ -266,6 +267,7 @@ class _Writer:
         elif found is None or number is None:
             self._request_in(item, site, ASK)
         else:
+            self.code.bodies[number] = found[0]
             numbers = [self.code.constant(value) for value in found[1]]
             self._row_with_result(item, number, site, numbers, found[0].stops)
 

@@ -15,7 +15,9 @@ from plcgen.plc.engine import COUNTERS, NO_SERVICES, Site
 from plcgen.plc.fast import vm
 from plcgen.plc.fast.bodies import KINDS
 from plcgen.plc.fast.encode import FACTOR, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
-from plcgen.plc.fast.vm import QUIET, START, enter
+from plcgen.plc.fast.helpers import FIRST
+from plcgen.plc.fast.native import Compiler
+from plcgen.plc.fast.vm import NATIVE, QUIET, START, enter
 from plcgen.plc.operators import Operator
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
@@ -30,6 +32,7 @@ class _Image:
     rows: np.ndarray
     slots: np.ndarray
     sites: list[Site]
+    compiler: Compiler
 
 
 _IMAGES: dict[tuple[int, int, int], _Image] = {}
@@ -58,7 +61,17 @@ def _drawn(program: Program, areas: Mapping[Area | str, int], first_byte: int, t
     slots = np.zeros(code.slots, np.int64)
     for slot, value in code.constants.items():
         (slots.view(np.float64) if isinstance(value, float) else slots)[slot] = value
-    return _Image(program, code, np.array(code.rows or [[0] * WIDTH], dtype=np.int64), slots, sites)
+    rows = np.array(code.rows or [[0] * WIDTH], dtype=np.int64)
+    return _Image(program, code, rows, slots, sites, Compiler(code, rows))
+
+
+def _furnished(slots: np.ndarray) -> np.ndarray:
+    """A room with these slots. The stack and the list of events, a megabyte, are written before they are read."""
+    room = np.empty(vm.SLOTS + len(slots), np.int64)
+    room[: vm.STACK] = 0
+    room[vm.EVENTS : vm.EVENTS + FIRST] = 0
+    room[vm.SLOTS :] = slots
+    return room
 
 
 class FastEngine:
@@ -84,12 +97,12 @@ class FastEngine:
         if image.code.first_byte > len(flat):
             raise UnsuitableError
         self._sites, self._code, self._memory = image.sites, image.rows, flat
+        self._compiler = image.compiler
         self._entries, self._requests, self.end = image.code.entries, image.code.requests, image.code.first_byte
         for start, data in image.code.data.items():
             flat[start : start + len(data)] = np.frombuffer(data, np.uint8)
-        self._room = np.zeros(vm.SLOTS + len(image.slots), np.int64)
+        self._room = _furnished(image.slots)
         self._integers = self._room[vm.SLOTS :]
-        self._integers[:] = image.slots
         self._floats = self._integers.view(np.float64)
         self._floats[FACTOR] = 1.0 + function_error
         self._events, self._state = self._room[vm.EVENTS : vm.SLOTS], self._room[: vm.COUNTS]
@@ -100,6 +113,14 @@ class FastEngine:
             **services,
         }
         self._evaluators: dict[int, Callable[..., Any]] = {}
+        self._state[NATIVE] = 0
+        self.have_run(0)
+
+    def have_run(self, scans: int) -> None:
+        """What runs for long gets native code; what was compiled by an earlier run has it at once."""
+        native = self._compiler.after(scans) if not self._state[NATIVE] else None
+        if native:
+            self._state[NATIVE] = native.address
 
     def bound(self, name: str, base: int) -> Callable[..., Any]:
         """See `Engine.bound`; `base` is the first byte of the instance."""

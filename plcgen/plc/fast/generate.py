@@ -38,11 +38,12 @@ from plcgen.plc.fast.helpers import *
 
 HELPERS = "{helpers}"
 """Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
-DONE, REQUEST, EXHAUSTED, FULL = range(4)
+DONE, REQUEST, EXHAUSTED, FULL, HANDED_OVER = range(5)
+"""The last is of native code: the virtual machine goes on from the row that it has noted."""
 QUIET = -1
 """Of `enter`: ended, and there is nothing to tell."""
-START, BUDGET, CALLS = range(3)
-"""Fields of the state."""
+START, BUDGET, CALLS, NATIVE = range(4)
+"""Fields of the state; the last is the address of native code, if there is any."""
 BASE = 1
 """Slot of the instance's first byte."""
 FACTOR = 3
@@ -58,7 +59,11 @@ def enter(code: Any, room: Any, memory: Any, start: int, base: int, budget: int)
     """Run from row `start` on the instance at `base`. Returns QUIET, or what `run` ended with."""
     room[START], room[BUDGET], room[CALLS] = start, budget, 0
     room[SLOTS + BASE] = base
-    ended = run(code, room, memory)
+    ended = HANDED_OVER
+    if room[NATIVE]:
+        ended = called(room[NATIVE], room.ctypes.data, memory.ctypes.data, start)
+    if ended == HANDED_OVER:
+        ended = run(code, room, memory)
     return QUIET if ended == DONE and not room[EVENTS] else ended
 '''
 STAMP = re.compile(r'(?<=^VM = ")\w+(?="$)', re.MULTILINE)

@@ -7,12 +7,29 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
 OVERFLOW, INVALID, BY_ZERO, OUT_OF_RANGE = range(4)
 COUNT, DIVIDED, FIRST = 0, 1, 2
 
 compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", inline="never")
+
+
+def _called(_typing: Any, address: Any, room: Any, memory: Any, start: Any) -> Any:
+    """What native code at an address returns for the addresses of room and memory and the first row."""
+    number = ir.IntType(64)
+    function = ir.FunctionType(number, [number] * 3).as_pointer()
+
+    def generated(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+        whole = [context.cast(builder, v, kind, types.int64) for v, kind in zip(values, signature.args, strict=True)]
+        return builder.call(builder.inttoptr(whole[0], function), whole[1:])
+
+    return types.int64(address, room, memory, start), generated
+
+
+called: Any = intrinsic(_called)
 
 
 @compiled

@@ -40,7 +40,7 @@ class FastRunner:
         self._flat = np.zeros(end + ROOM, np.uint8)
         whole = self._flat.data
         for key, root in roots.items():
-            whole[starts[key] : starts[key] + len(root)] = bytes(root)
+            self._flat[starts[key] : starts[key] + len(root)] = np.frombuffer(root, np.uint8)
         areas = {area: starts[id(_root(data))] + _offset(data) for area, data in memory.items()}
         self.views: dict[Area | str, Bytes] = {a: whole[areas[a] : areas[a] + len(data)] for a, data in memory.items()}
         self.engine = FastEngine(program, self._flat, areas, end, note, temp_fill, function_error, services)

@@ -16,6 +16,7 @@ from plcgen.plc.stl.parser import parse
 from plcgen.plc.stl.smart_costs import CLASSES, COSTS
 from plcgen.plc.stl.smart_memory import PHYSICAL_OUTPUTS, V
 from plcgen.plc.types import DWORD, REAL, WORD
+from tests.every_engine import QUICK
 from tests.plc.conftest import smart_text
 
 Make = Callable[..., Smart]
@@ -339,10 +340,9 @@ BUSY = {
 }
 
 
+@pytest.mark.parametrize("engine", QUICK, indirect=True)
 @pytest.mark.parametrize("seed", range(60))
-def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
+def test_many_scans_at_once_are_what_single_ones_are(seed: int) -> None:
     random = Random(seed)
     numbers = {name: random.randrange(2, 400) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
     numbers |= {"period": random.choice([1, 5, 10, 200]), "event": random.choice([19, 20])}
@@ -375,11 +375,10 @@ def test_many_scans_at_once_are_what_single_ones_are(seed: int, monkeypatch: pyt
     assert len(quick._loops) == 1
 
 
+@pytest.mark.parametrize("engine", QUICK, indirect=True)
 @pytest.mark.parametrize("seed", range(40))
-def test_many_interrupts_at_once_are_what_single_ones_are(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_interrupts_at_once_are_what_single_ones_are(seed: int) -> None:
     """Up to a bit of what is recorded, or to the tick that detaches the routine; scans let trains come to their end."""
-    pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
     random = Random(seed)
     numbers = {name: random.randrange(2, 60) for name in ("overflow", "train", "image", "at_once", "disabled", "stop")}
     numbers |= {"period": 200, "event": 19, "pulses": 100, "slow": 10, "segments": 2, "hertz": 99_000, "short": 100}
@@ -410,10 +409,9 @@ def test_many_interrupts_at_once_are_what_single_ones_are(seed: int, monkeypatch
     assert any(quick._call_loops.values())
 
 
-def test_ticks_that_start_tables_need_no_python(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("engine", QUICK, indirect=True)
+def test_ticks_that_start_tables_need_no_python() -> None:
     """50 scans with 25 ticks, each of which starts 1000 pulses at 100 kHz, in one go."""
-    pytest.importorskip("numba", reason="the fast engine needs Numba")
-    monkeypatch.setenv("PLCGEN_ENGINE", "fast")
     prepare = """
         LD     SM0.1
         MOVB   10, SMB34

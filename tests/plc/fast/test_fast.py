@@ -1,4 +1,5 @@
-"""The compiled engine against the plain one: every operator, and golden blocks; bit for bit.
+"""The compiled engine, virtual machine and native code, against the plain one: every operator, and golden blocks;
+bit for bit.
 
 Random programs: see tests/plc/stl/test_awlsim.py and tests/plc/cpu/test_smart.py.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -27,11 +28,13 @@ from plcgen.plc.scl.parser import parse as parse_scl
 from plcgen.plc.source import SourceText, Span
 from plcgen.plc.stl import s7_operators, smart_operators
 from plcgen.plc.types import BOOL, Elementary, Type
+from tests.every_engine import CHOICES, NATIVE, choose
 
 pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
 
-from plcgen.plc.fast import generate
+from plcgen.plc.fast import generate, vm
 from plcgen.plc.fast.bodies import body_of
+from plcgen.plc.fast.memory import FastRunner
 
 GOLDEN = Path(__file__).parents[3] / "golden"
 SOURCE, HERE = SourceText("fast.scl", "x := 1;"), Span(0, 6)
@@ -44,14 +47,25 @@ def engine() -> None:
     """These tests choose their engine."""
 
 
-def pair(monkeypatch: pytest.MonkeyPatch, *arguments: Any) -> dict[str, Machine]:
+@pytest.fixture
+def each(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., dict[str, Machine]]:
     """A machine on each engine."""
-    machines = {}
-    for name in engines.ENGINES:
-        monkeypatch.setenv(engines.VARIABLE, name)
-        machines[name] = Machine(*arguments)
-    assert type(machines["plain"].engine) is not type(machines["fast"].engine)
-    return machines
+
+    def made(*arguments: Any) -> dict[str, Machine]:
+        machines = {}
+        for name in CHOICES:
+            choose(name, monkeypatch, tmp_path)
+            machines[name] = Machine(*arguments)
+        assert type(machines["plain"].engine) is not type(machines["fast"].engine)
+        assert [is_native(machines[name]) for name in (engines.FAST, NATIVE)] == [False, True]
+        return machines
+
+    return made
+
+
+def is_native(machine: Machine) -> bool:
+    assert isinstance(machine.engine, FastRunner)
+    return bool(machine.engine.engine._state[vm.NATIVE])
 
 
 # ------------------------------------------------------------------------------------------------------ operators
@@ -111,15 +125,15 @@ def outcome(machine: Machine, name: str, operands: list[Any]) -> tuple[Any, ...]
     return (type(result).__name__, bits, [fault.kind for fault in machine.faults])
 
 
-def test_every_row_gives_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_row_gives_the_same_bits(each: Callable[..., dict[str, Machine]]) -> None:
     linked, found = table()
-    machines = pair(monkeypatch, linked)
+    machines = each(linked)
     random = Random(2026)
     for number, row in enumerate(found):
         for _ in range(24):
             operands = [value(random, kind) for kind in row.operands]
-            plain, fast = (outcome(machine, f"FC{number}", operands) for machine in machines.values())
-            assert plain == fast, (row, row.text, operands)
+            plain, *others = (outcome(machine, f"FC{number}", operands) for machine in machines.values())
+            assert others == [plain, plain], (row, row.text, operands)
 
 
 def test_most_rows_of_the_usual_types_have_a_body() -> None:
@@ -138,10 +152,10 @@ def test_the_machine_is_what_its_generator_writes() -> None:
 
 
 @pytest.mark.parametrize(("case", "target"), [("short-shaft", "s7-300-scl"), ("ramps", "s7-300-stl")])
-def test_golden_blocks_keep_the_same_memory(monkeypatch: pytest.MonkeyPatch, case: str, target: str) -> None:
+def test_golden_blocks_keep_the_same_memory(each: Callable[..., dict[str, Machine]], case: str, target: str) -> None:
     files = {path.name: path.read_bytes() for path in (GOLDEN / case / target).iterdir()}
     keys = read_job(GOLDEN / case / "job.toml").function_block
-    machines = pair(monkeypatch, load(target, files), 0x7F)
+    machines = each(load(target, files), 0x7F)
     random, block, data = Random(1), f"FB{keys.fb}", f"DB{keys.db}"
     inputs = [
         name for name in ("enable", "execute", "stop", "restart", "directionUp") if _has(machines["plain"], data, name)
@@ -157,8 +171,8 @@ def test_golden_blocks_keep_the_same_memory(monkeypatch: pytest.MonkeyPatch, cas
             machine.scan = scan
             machine.call(block, data)
             images.append(bytes(machine.memory[data]))
-        assert images[0] == images[1], scan
-    assert machines["plain"].faults == machines["fast"].faults
+        assert images == [images[0]] * len(CHOICES), scan
+    assert machines["plain"].faults == machines["fast"].faults == machines[NATIVE].faults
 
 
 def _has(machine: Machine, data: str, name: str) -> bool:
@@ -210,21 +224,21 @@ END_FUNCTION
 """
 
 
-def test_more_events_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_more_events_than_there_is_room_for(each: Callable[..., dict[str, Machine]]) -> None:
     """They are told in between, in their order, and nothing of the budget is spent on it."""
     linked = lower_scl(list(parse_scl(SourceText("many.scl", MANY_EVENTS), CLASSIC)), CLASSIC)
-    machines = pair(monkeypatch, linked, 0, 80_001)
+    machines = each(linked, 0, 80_001)
     results = [machine.call("FC2", arguments=[]) for machine in machines.values()]
-    assert results == [-32768, -32768]
-    assert machines["plain"].faults == machines["fast"].faults
+    assert results == [-32768] * len(CHOICES)
+    assert machines["plain"].faults == machines["fast"].faults == machines[NATIVE].faults
     assert len(machines["fast"].faults) == 40_000
 
 
-def test_a_budget_that_is_spent_stops_both_at_the_same_place(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_budget_that_is_spent_stops_all_at_the_same_place(each: Callable[..., dict[str, Machine]]) -> None:
     linked = lower_scl(list(parse_scl(SourceText("many.scl", MANY_EVENTS), CLASSIC)), CLASSIC)
     told = []
-    for machine in pair(monkeypatch, linked, 0, 79_999).values():
+    for machine in each(linked, 0, 79_999).values():
         with pytest.raises(Fault) as raised:
             machine.call("FC2", arguments=[])
         told.append((str(raised.value), len(machine.faults)))
-    assert told[0] == told[1]
+    assert told == [told[0]] * len(CHOICES)

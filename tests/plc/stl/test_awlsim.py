@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import struct
 from importlib.util import find_spec
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -30,6 +31,7 @@ from plcgen.plc.source import SourceText
 from plcgen.plc.stl.s7_lowering import lower
 from plcgen.plc.stl.s7_parser import parse
 from plcgen.plc.types import BYTE_BITS
+from tests.every_engine import QUICK, choose
 from tests.plc.stl.s7_programs import TABLES, calls, program
 
 BATCHES, PROGRAMS = 25, 80
@@ -91,26 +93,26 @@ def contents(machine: Machine) -> dict[object, bytes]:
     return {area: bytes(data) for area, data in machine.memory.items()}
 
 
-def ran(lowered: Program, engine: str, monkeypatch: pytest.MonkeyPatch) -> Machine:
-    monkeypatch.setenv(engines.VARIABLE, engine)
+def ran(lowered: Program, engine: str, monkeypatch: pytest.MonkeyPatch, folder: Path) -> Machine:
+    choose(engine, monkeypatch, folder)
     machine = Machine(lowered)
     machine.call("OB1")
     return machine
 
 
 @pytest.mark.parametrize("batch", range(BATCHES))
-def test_random_programs_leave_the_same_memory(batch: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_random_programs_leave_the_same_memory(batch: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """On both engines, with the same events; and in awlsim, where it is installed."""
     random = Random(batch)
     numbers = range(1, PROGRAMS + 1)
     texts = {number: program(random, number) for number in numbers}
     source = "".join(texts.values()) + calls(numbers)
     lowered = lower(parse(SourceText("random.awl", source)))
-    plain = ran(lowered, engines.PLAIN, monkeypatch)
-    if find_spec("numba"):
-        fast = ran(lowered, engines.FAST, monkeypatch)
-        assert contents(plain) == contents(fast)
-        assert plain.faults == fast.faults
+    plain = ran(lowered, engines.PLAIN, monkeypatch, tmp_path)
+    for engine in QUICK if find_spec("numba") else ():
+        other = ran(lowered, engine, monkeypatch, tmp_path)
+        assert contents(plain) == contents(other)
+        assert plain.faults == other.faults
     simulator = load(source)
     simulator.runCycle()
     foreign = memory_of(simulator)

@@ -1,0 +1,29 @@
+"""The engines that a program can run on, and how tests choose among them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from plcgen.plc import engines
+
+NATIVE = "native"
+"""The fast engine where all is compiled before it runs, which a user only gets for what runs for long."""
+QUICK = (engines.FAST, NATIVE)
+CHOICES = (*engines.ENGINES, NATIVE)
+NEVER = 10**12
+
+
+def choose(engine: str, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Let machines run on an engine; the fast one stays with its virtual machine unless it is called native."""
+    monkeypatch.setenv(engines.VARIABLE, engines.FAST if engine == NATIVE else engine)
+    if engine == engines.PLAIN:
+        return
+    pytest.importorskip("numba", reason="the fast engine needs Numba: pip install plcgen[fast]")
+    from plcgen.plc.fast import engine as fast
+    from plcgen.plc.fast import native
+
+    monkeypatch.setattr(fast, "_IMAGES", {})
+    monkeypatch.setattr(native, "SCANS_A_ROW", 0 if engine == NATIVE else NEVER)
+    monkeypatch.setattr(native, "_folder", lambda: folder / engine)

@@ -1,0 +1,183 @@
+"""Native code: what is compiled, when, and what is kept of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from plcgen.plc import engines
+from plcgen.plc.core import Program
+from plcgen.plc.machine import Machine
+from plcgen.plc.scl.dialects import CLASSIC
+from plcgen.plc.scl.lowering import lower
+from plcgen.plc.scl.parser import parse
+from plcgen.plc.source import SourceText
+from tests.every_engine import NATIVE, choose
+
+pytest.importorskip("numba", reason="the fast engine needs Numba: pip install plcgen[fast]")
+
+from plcgen.plc.fast import bodies, generate, native, native_rows, vm
+from plcgen.plc.fast.bodies import Body
+from plcgen.plc.fast.encode import Code, Entry
+from plcgen.plc.fast.memory import FastRunner
+
+COUNTER = """FUNCTION_BLOCK FB1
+VAR_OUTPUT
+    calls : INT;
+    sum : REAL;
+END_VAR
+BEGIN
+    calls := calls + {step};
+    sum := sum + {weight} * INT_TO_REAL(calls);
+END_FUNCTION_BLOCK
+DATA_BLOCK DB1 FB1
+BEGIN
+END_DATA_BLOCK
+"""
+RARE = ("approximate_", "%", "count(T, A)")
+"""Functions of a library, rotations by any number, and what is counted by a number that is not in the program."""
+
+
+@pytest.fixture(autouse=True)
+def engine(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    choose(NATIVE, monkeypatch, tmp_path)
+
+
+@pytest.fixture
+def objects(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
+    """Sizes of the objects that were compiled."""
+    sizes: list[int] = []
+    really = native._object
+
+    def noted(text: str) -> bytes:
+        data = really(text)
+        sizes.append(len(data))
+        return data
+
+    monkeypatch.setattr(native, "_object", noted)
+    yield sizes
+
+
+def counter(step: int = 1, weight: str = "0.5") -> Program:
+    text = COUNTER.format(step=step, weight=weight)
+    return lower(list(parse(SourceText("counter.scl", text), CLASSIC)), CLASSIC)
+
+
+def is_native(machine: Machine) -> bool:
+    assert isinstance(machine.engine, FastRunner)
+    return bool(machine.engine.engine._state[vm.NATIVE])
+
+
+def result(machine: Machine) -> tuple[int, float]:
+    """Of three calls: calls 3, sum 0.5 * (1 + 2 + 3)."""
+    for _ in range(3):
+        machine.call("FB1", "DB1")
+    return machine.variable('"DB1".calls').get(), machine.variable('"DB1".sum').get()
+
+
+def kept(folder: Path) -> list[Path]:
+    return sorted((folder / NATIVE).glob("native-*.o"))
+
+
+# ---------------------------------------------------------------------------------------------------------- bodies
+
+
+def translated(body: Body) -> native_rows._Function:
+    """A function of one row, with four operands and six numbers, of the kinds that the body wants."""
+    code = Code(0)
+    slots = [code.slot() for _ in body.kinds]
+    floats = [re.search(rf"\bG{n}\b", body.key) is not None for n in range(bodies.MOST_NUMBERS)]
+    numbers = [code.constant(0.5 + n if is_float else 3 + n) for n, is_float in enumerate(floats)]
+    number = vm.BODIES[body.key]
+    code.bodies[number] = body
+    code.row(number, slots[-1], *slots[:-1], numbers=numbers)
+    code.entries["FC1"] = Entry(0, (), (), (), 0)
+    return native_rows._Function(code, 0, 1)
+
+
+def test_almost_every_body_has_words_for_the_processor() -> None:
+    left = set()
+    for body in generate.all_bodies():
+        function = translated(body)
+        function.written()
+        if f"store {'double' if body.kinds[-1] == 'f' else 'i64'}" not in "\n".join(function.text.lines):
+            left.add(body.expression)
+    assert not [expression for expression in left if not any(word in expression for word in RARE)]
+    assert len(left) < 0.15 * len(generate.all_bodies())
+
+
+# ------------------------------------------------------------------------------------------------------------ when
+
+
+def test_it_begins_when_so_many_scans_have_been_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(native, "SCANS_A_ROW", 100)
+    machine = Machine(counter())
+    assert isinstance(machine.engine, FastRunner)
+    rows = len(machine.engine.engine._code)
+    machine.engine.engine.have_run(100 * rows - 1)
+    assert not is_native(machine)
+    machine.engine.engine.have_run(1)
+    assert is_native(machine)
+
+
+def test_machines_of_a_program_share_it(objects: list[int]) -> None:
+    program = counter()
+    machines = [Machine(program) for _ in range(3)]
+    assert all(map(is_native, machines))
+    assert len(objects) == 1
+    assert [result(machine) for machine in machines] == [(3, 3.0)] * 3
+
+
+# ------------------------------------------------------------------------------------------------------------ kept
+
+
+def test_what_was_compiled_is_kept_for_other_runs(objects: list[int], tmp_path: Path) -> None:
+    Machine(counter())
+    machine = Machine(counter())
+    assert len(objects) == len(kept(tmp_path)) == 1
+    assert is_native(machine)
+    assert result(machine) == (3, 3.0)
+
+
+def test_real_numbers_are_data_and_whole_ones_are_not(objects: list[int]) -> None:
+    results = [result(Machine(counter(step, weight))) for step, weight in [(1, "0.5"), (1, "0.25"), (2, "0.5")]]
+    assert results == [(3, 3.0), (3, 1.5), (6, 6.0)]
+    assert len(objects) == 2
+
+
+@pytest.mark.parametrize("damage", [lambda d: d[:-1], lambda d: d[:0], lambda d: d[:99] + b"x" + d[100:]])
+def test_a_file_that_is_damaged_is_written_again(
+    damage: Callable[[bytes], bytes], objects: list[int], tmp_path: Path
+) -> None:
+    Machine(counter())
+    (path,) = kept(tmp_path)
+    whole = path.read_bytes()
+    path.write_bytes(damage(whole))
+    assert result(Machine(counter())) == (3, 3.0)
+    assert len(objects) == 2
+    assert path.read_bytes() == whole
+
+
+def test_a_folder_that_cannot_be_written_keeps_nothing(objects: list[int], tmp_path: Path) -> None:
+    (tmp_path / NATIVE).write_text("a file where a folder should be")
+    assert [result(Machine(counter())) for _ in range(2)] == [(3, 3.0)] * 2
+    assert len(objects) == 2
+
+
+def test_what_was_not_used_for_longest_makes_room(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(native, "MOST_KEPT", 2)
+    found = []
+    for step in (1, 2, 3):
+        Machine(counter(step))
+        found.append(set(kept(tmp_path)))
+    assert [len(paths) for paths in found] == [1, 2, 2]
+    assert not found[0] & found[2]
+
+
+def test_the_plain_engine_compiles_nothing(monkeypatch: pytest.MonkeyPatch, objects: list[int], tmp_path: Path) -> None:
+    choose(engines.PLAIN, monkeypatch, tmp_path)
+    assert result(Machine(counter())) == (3, 3.0)
+    assert not objects
