@@ -13,6 +13,7 @@ from plcgen.check.cosine_commands import commands
 from plcgen.check.cosine_model import Axis, Command, CosineModel, MoveModel, Ramp, RampModel
 from plcgen.check.cosine_run import Run, likeliest, run_checks
 from plcgen.check.verdict import Check, TargetVerdict, nearer
+from plcgen.plc.script import Step
 from plcgen.trajectory import Trajectory
 
 RANDOM_ORDERS = 10_000
@@ -310,12 +311,13 @@ def _standstill(subject: Subject) -> Check:
     orders = RANDOM_ORDERS
     if isinstance(model, MoveModel):
         orders = min(orders, MOST_RANDOM_SAMPLES // (2 * model.filter_length + 20))
+    steps: list[Step] = []
     for number in range(1, orders + 1):
-        axis.set(execute=True, **_random_order(model, random))
-        axis.scan()
-        axis.set(execute=False)
-        axis.samples(random.randrange(1, 20))
+        order = {"execute": True, **_random_order(model, random)}
+        steps += (order, 1), ({"execute": False}, random.randrange(1, 20))
         if number % REST_EVERY == 0 or isinstance(model, MoveModel):
+            axis.play(steps)
+            steps.clear()
             wrong += not _comes_to_rest(axis, model)
     return Check("standstill_not_exact", float(wrong), 0.0, "1")
 

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
+from plcgen.plc.script import Step
 from plcgen.trajectory import Trajectory
 
 Samples = NDArray[Any]
@@ -16,13 +17,15 @@ Samples = NDArray[Any]
 class Axis(Protocol):
     """A block with its memory, called sample by sample; names are those of the SCL block.
 
-    `samples` are many calls with the same inputs, up to one behind which the output `until` is TRUE.
+    `samples` are many calls with the same inputs, up to one behind which the output `until` is TRUE; `play` are steps,
+    one after the other.
     """
 
     def set(self, **inputs: float) -> None: ...
     def get(self, name: str) -> float: ...
     def scan(self) -> None: ...
     def samples(self, most: int, until: str = "") -> None: ...
+    def play(self, steps: Sequence[Step]) -> None: ...
     def trace(self) -> Trajectory: ...
     @property
     def faults(self) -> Sequence[object]: ...

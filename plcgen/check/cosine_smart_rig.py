@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from plcgen.plc.core import Program
 from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.machine import FaultRecord, Variable
+from plcgen.plc.script import NO_SCRIPT, WORTH_A_SCRIPT, Place, Script, Step, scripted
 from plcgen.plc.stl.smart_memory import V
 from plcgen.plc.types import BOOL, REAL, WORD, Elementary
 from plcgen.trajectory import Trajectory
@@ -57,18 +58,6 @@ OUTPUTS = {
 }
 
 
-class Place(NamedTuple):
-    """Where a signal lies in V memory."""
-
-    byte: int
-    bit: int
-    type: Elementary
-
-    @property
-    def end(self) -> int:
-        return self.byte + (1 if self.type is BOOL else self.type.bits // 8)
-
-
 def _place(address: str, kind: Elementary) -> Place:
     match = re.fullmatch(r"V[BWD]?(\d+)(?:\.([0-7]))?", address)
     assert match, address
@@ -94,12 +83,12 @@ class SmartAxis:
         self.sample_period = sample_period
         self.scans = 0
         self.cpu = Smart(program, FIRST_SCAN_US, temp_fill=temp_fill)
-        self._places = {name: _place(addresses[signal.name], signal.type) for name, signal in OUTPUTS.items()}
-        places = self._places.values()
-        self._recorded = range(min(place.byte for place in places), max(place.end for place in places))
+        signals = INPUTS[kind] | OUTPUTS
+        self._places = {name: _place(addresses[signal.name], signal.type) for name, signal in signals.items()}
+        outputs = [self._places[name] for name in OUTPUTS]
+        self._recorded = range(min(place.byte for place in outputs), max(place.end for place in outputs))
         self._variables = {
-            name: self.cpu.variable(addresses[signal.name], signal.type)
-            for name, signal in (INPUTS[kind] | OUTPUTS).items()
+            name: self.cpu.variable(addresses[signal.name], signal.type) for name, signal in signals.items()
         }
         self._records: list[bytes] = []
         self._retain(addresses, retained)
@@ -135,22 +124,40 @@ class SmartAxis:
 
     def samples(self, most: int, until: str = "") -> None:
         """Ticks of the timed interrupt, up to one behind which the output `until` is TRUE."""
-        end = self.scans + most
-        place = self._places.get(until)
-        byte, mask = (place.byte, 1 << place.bit) if place else (self._recorded.start, 0)
-        while self.scans < end:
-            images = self.cpu.run_interrupts(TICK, end - self.scans, self._recorded, byte, mask)
+        self._play(Script(NO_SCRIPT, most), until)
+
+    def play(self, steps: Sequence[Step]) -> None:
+        """Steps of inputs and the ticks that follow."""
+        if len(steps) >= WORTH_A_SCRIPT:
+            self._play(scripted(steps, self._place))
+            return
+        for inputs, count in steps:
+            self.set(**inputs)
+            self.samples(count)
+
+    def _play(self, script: Script, until: str = "") -> None:
+        byte, bit, _ = self._place(until) if until else (0, 0, BOOL)
+        while script.calls:
+            images = self.cpu.run_interrupts(TICK, script, self._recorded, byte, 1 << bit if until else 0)
             self._records.append(images)
-            self.scans += len(images) // len(self._recorded)
+            ticks = len(images) // len(self._recorded)
+            self.scans += ticks
             if until and self.get(until):
                 return
+            script = script.after(ticks)
+
+    def _place(self, name: str) -> Place:
+        """From the first byte on that is recorded."""
+        byte, bit, kind = self._places[name]
+        return Place(byte - self._recorded.start, bit, kind)
 
     def trace(self) -> Trajectory:
         """Every output and the speed before the average, in each sample; `time` is that of its tick."""
         size, data = len(self._recorded), b"".join(self._records)
         rows = len(data) // size
         columns = {"time": np.arange(self.scans - rows, self.scans) * self.sample_period}
-        for name, place in self._places.items():
+        for name in OUTPUTS:
+            place = self._places[name]
             dtype = np.dtype(">" + place.type.code)
             column = np.ndarray((rows,), dtype, data, place.byte - self._recorded.start, (size,))
             flag = place.type is BOOL

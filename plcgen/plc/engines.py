@@ -32,7 +32,7 @@ class CallLoop(Loop, Protocol):
 
     images: np.ndarray
 
-    def run(self, most: int, byte: int = 0, mask: int = 0) -> int: ...
+    def run(self, most: int, byte: int = 0, mask: int = 0, script: np.ndarray = ...) -> int: ...
 
 
 class ClosedLoop(Loop, Protocol):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from random import Random
 
@@ -14,6 +15,7 @@ from plcgen.plc import engines
 from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
+from plcgen.plc.script import WORTH_A_SCRIPT, Step
 from plcgen.plc.source import SourceText
 from tests.every_engine import CHOICES, choose
 
@@ -94,3 +96,29 @@ def test_many_samples_at_once_are_what_single_ones_are(seed: int, engine: str) -
     traces = quick.trace(), single.trace()
     assert all(np.array_equal(traces[0][name], traces[1][name]) for name in traces[0].columns), seed
     assert quick.machine.faults == single.machine.faults, seed
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_steps_are_what_single_samples_are(seed: int) -> None:
+    """Few of them or a script, with faults and events on the way."""
+    random = Random(seed)
+    played, single = axis(), axis()
+    while played.scans < 45:
+        steps: list[Step] = []
+        for _ in range(random.choice([1, 3, WORTH_A_SCRIPT, 12])):
+            inputs = {"growth": random.uniform(0.0, 2e38)} if random.random() < 0.7 else {}
+            steps.append((inputs, random.randrange(1, 4)))
+        for one in (played, single):
+            with suppress(Fault):
+                one.play(steps) if one is played else singly(one, steps)
+        assert played.scans == single.scans, seed
+    traces = played.trace(), single.trace()
+    assert all(np.array_equal(traces[0][name], traces[1][name]) for name in traces[0].columns), seed
+    assert played.machine.faults == single.machine.faults, seed
+
+
+def singly(one: S7Axis, steps: list[Step]) -> None:
+    for inputs, count in steps:
+        one.set(**inputs)
+        for _ in range(count):
+            one.scan()

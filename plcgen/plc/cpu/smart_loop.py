@@ -14,6 +14,7 @@ from plcgen.plc.core import Area, Program
 from plcgen.plc.cpu.pto import IDLE, LEFT, PORTS, Channel
 from plcgen.plc.engine import Bytes
 from plcgen.plc.machine import Machine
+from plcgen.plc.script import Script
 from plcgen.plc.stl.smart_memory import AC, AREAS, PHYSICAL_OUTPUTS, V
 
 if TYPE_CHECKING:
@@ -89,17 +90,19 @@ class LoopedScans(ABC):
             self.scan()
         return rows or 1
 
-    def run_interrupts(self, event: int, most: int, recorded: range, byte: int, mask: int) -> bytes:
-        """Run the routine of an event so many times, here and now, up to one that leaves a bit of V memory set.
+    def run_interrupts(self, event: int, script: Script, recorded: range, byte: int = 0, mask: int = 0) -> bytes:
+        """Run the routine of an event as often as the script says, here and now, up to a run that leaves a bit of V
+        memory set.
 
-        `recorded` are bytes of V memory, `byte` is one of them, `mask` 0 for none; returned is what they hold after
-        each run.
+        `recorded` are bytes of V memory, from which on those of the script count; `byte` is one of them, `mask` 0 for
+        none. Returned is what they hold after each run.
         """
         loop = self._calls(event, recorded)
         if loop is None:
+            script.write(self.memory[V], recorded.start)
             self.run_interrupt(event)
             return bytes(self.memory[V][recorded.start : recorded.stop])
-        rows = loop.run(most, byte - recorded.start, mask)
+        rows = loop.run(script.calls, byte, mask, script.rows)
         self._guarded(self._attached[event], self._processor.settle, loop)
         return loop.images[:rows].tobytes()
 

@@ -1,4 +1,4 @@
-"""Calls of one block, over and over with the same inputs, without Python in between."""
+"""Calls of one block, over and over, without Python in between."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numba import njit
 
 from plcgen.plc.fast.engine import FastEngine
 from plcgen.plc.fast.vm import DONE, QUIET, enter
+from plcgen.plc.script import NO_SCRIPT
 
 VM = "0550afc4d0ab1a37"
 """Beginning of the SHA-256 of vm.py, written by generate.py."""
@@ -31,14 +32,20 @@ def after(memory: Any, first: int, kept: Any, values: Any, image: Any) -> None:
 @compiled
 def calls(
     code: Any, room: Any, memory: Any, fields: Any, told: Any, kept: Any, values: Any, images: Any, budget: int,
-    most: int, byte: int, mask: int,
+    most: int, byte: int, mask: int, script: Any,
 ) -> int:  # fmt: skip
     """Calls that were made, the last of which needs Python, or has set the bit of the image that is watched.
 
     Rows of `told` are what the CPU writes before each: a byte, the bits that stay, those that are set. `kept` are bytes
-    that are put back after each. `fields[ENDED]` is what `enter` returned for the last one.
+    that are put back after each. Rows of `script` begin with the call before which they are written; their bytes count
+    from the image on. `fields[ENDED]` is what `enter` returned for the last one.
     """
+    line = 0
     for row in range(most):
+        while line < len(script) and script[line, 0] <= row:
+            at = fields[FIRST_BYTE] + script[line, 1]
+            memory[at] = memory[at] & script[line, 2] | script[line, 3]
+            line += 1
         for place in range(len(told)):
             at = told[place, 0]
             memory[at] = memory[at] & told[place, 1] | told[place, 2]
@@ -79,10 +86,10 @@ class CallLoop:
         self._arrays = self._fields, before, self._kept, self._values
         self.images = np.empty((self.LONGEST, size), np.uint8)
 
-    def run(self, most: int, byte: int = 0, mask: int = 0) -> int:
+    def run(self, most: int, byte: int = 0, mask: int = 0, script: np.ndarray = NO_SCRIPT) -> int:
         """Up to so many calls, until one leaves a bit of a byte of the image set; the last is over after `settle`."""
         parts, budget, most = self._engine.parts, self._engine.budget[0], min(most, self.LONGEST)
-        self._rows = rows = int(calls(*parts, *self._arrays, self.images, budget, most, byte, mask))
+        self._rows = rows = int(calls(*parts, *self._arrays, self.images, budget, most, byte, mask, script))
         self._engine.have_run(rows)
         return rows
 

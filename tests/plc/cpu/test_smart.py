@@ -10,6 +10,7 @@ import pytest
 from plcgen.errors import Fault, PlcgenError
 from plcgen.plc.cpu import pto, smart_loop
 from plcgen.plc.cpu.smart import Smart
+from plcgen.plc.script import NO_SCRIPT, Script
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.lowering import lower
 from plcgen.plc.stl.parser import parse
@@ -399,7 +400,7 @@ def test_many_interrupts_at_once_are_what_single_ones_are(seed: int) -> None:
             if single.memory["V"][byte] & mask:
                 break
         while 10 in quick._attached and len(images[1]) < batch:
-            data = quick.run_interrupts(10, batch - len(images[1]), recorded, byte, mask)
+            data = quick.run_interrupts(10, Script(NO_SCRIPT, batch - len(images[1])), recorded, byte - 1, mask)
             images[1] += [data[at : at + len(recorded)] for at in range(0, len(data), len(recorded))]
             if quick.memory["V"][byte] & mask:
                 break
