@@ -5,14 +5,34 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Column = NDArray[Any]
+
+
+class LateColumns(Mapping[str, Column]):
+    """Columns of one length, each made when somebody asks for it: a record has many that nobody reads."""
+
+    def __init__(self, makers: Mapping[str, Callable[[], Column]]) -> None:
+        self._makers = makers
+        self._made: dict[str, Column] = {}
+
+    def __getitem__(self, name: str) -> Column:
+        if name not in self._made:
+            self._made[name] = self._makers[name]()
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._makers)
+
+    def __len__(self) -> int:
+        return len(self._makers)
 
 
 @dataclass(frozen=True)
@@ -22,6 +42,8 @@ class Trajectory:
     columns: Mapping[str, Column]
 
     def __post_init__(self) -> None:
+        if isinstance(self.columns, LateColumns):
+            return
         lengths = {name: len(column) for name, column in self.columns.items()}
         if len(set(lengths.values())) > 1:
             raise ValueError(f"columns of different length: {lengths}")
@@ -34,7 +56,11 @@ class Trajectory:
 
     def rows(self, selection: Column) -> Trajectory:
         """The rows that an index or boolean array selects."""
-        return Trajectory({name: column[selection] for name, column in self.columns.items()})
+        return Trajectory(LateColumns({name: partial(self._selected, name, selection) for name in self.columns}))
+
+    def _selected(self, name: str, selection: Column) -> Column:
+        column: Column = self.columns[name][selection]
+        return column
 
     def to_csv(self) -> str:
         """CSV with a header line and LF. Numbers are the shortest text that reads back to the same value."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import partial
 from math import floor, inf
 from random import Random
 from struct import Struct
@@ -15,8 +16,8 @@ import numpy as np
 from plcgen.plc.core import Program
 from plcgen.plc.engines import ClosedLoop
 from plcgen.plc.machine import Machine, Variable
-from plcgen.plc.types import BYTE_BITS, Elementary, Family, Structure
-from plcgen.trajectory import Trajectory
+from plcgen.plc.types import BYTE_BITS, Elementary, Family, Field
+from plcgen.trajectory import Column, LateColumns, Trajectory
 
 
 @dataclass(frozen=True)
@@ -132,9 +133,14 @@ class Instance:
 
     def trace(self) -> Trajectory:
         """Every elementary variable of the interface after each scan."""
+        return Trajectory(LateColumns(self._makers()))
+
+    def _makers(self) -> dict[str, Callable[[], Column]]:
+        """Of a column for each variable."""
         structure = self.machine.program.functions[self.block].instance
         assert structure is not None
-        return Trajectory(_decode(b"".join(self._images), len(self._memory), structure))
+        data, size = b"".join(self._images), len(self._memory)
+        return {m.name: partial(_decoded, data, size, m) for m in structure.fields if isinstance(m.type, Elementary)}
 
 
 class Rig(Instance):
@@ -257,21 +263,15 @@ class Rig(Instance):
     def trace(self) -> Trajectory:
         """Everything recorded: time, plant travel, and every elementary variable of the interface."""
         times, travels = np.frombuffer(b"".join(self._moments)).reshape(-1, 2).T
-        return Trajectory({"time": times, "plantTravel": travels, **super().trace().columns})
+        return Trajectory(LateColumns({"time": lambda: times, "plantTravel": lambda: travels, **self._makers()}))
 
 
-def _decode(data: bytes, size: int, structure: Structure) -> dict[str, np.ndarray]:
-    """Columns of the elementary members of memory images of one size that follow each other."""
-    rows = len(data) // size
-    columns = {}
-    for member in structure.fields:
-        if not isinstance(member.type, Elementary):
-            continue
-        byte, bit = divmod(member.bit, BYTE_BITS)
-        dtype = np.dtype(">" + member.type.code)
-        column = np.ndarray((rows,), dtype, data, byte, (size,))
-        if member.type.family is Family.BIT:
-            columns[member.name] = (column >> bit & 1).astype(bool)
-        else:
-            columns[member.name] = column.astype(dtype.newbyteorder("="))
-    return columns
+def _decoded(data: bytes, size: int, member: Field) -> Column:
+    """An elementary member in memory images of one size that follow each other."""
+    assert isinstance(member.type, Elementary)
+    byte, bit = divmod(member.bit, BYTE_BITS)
+    dtype = np.dtype(">" + member.type.code)
+    column: Column = np.ndarray((len(data) // size,), dtype, data, byte, (size,))
+    if member.type.family is Family.BIT:
+        return (column >> bit & 1).astype(bool)
+    return column.astype(dtype.newbyteorder("="))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from mmap import mmap
 from typing import Any
 
 import numpy as np
@@ -37,10 +38,13 @@ class FastRunner:
         for key, root in roots.items():
             starts[key] = end
             end += (len(root) + SPACING - 1) // SPACING * SPACING
-        self._flat = np.zeros(end + ROOM, np.uint8)
+        # Pages of zeros from the system cost nothing until they are written.
+        self._flat = np.frombuffer(mmap(-1, end + ROOM), np.uint8)
         whole = self._flat.data
         for key, root in roots.items():
-            self._flat[starts[key] : starts[key] + len(root)] = np.frombuffer(root, np.uint8)
+            given = np.frombuffer(root, np.uint8)
+            if given.any():
+                self._flat[starts[key] : starts[key] + len(root)] = given
         areas = {area: starts[id(_root(data))] + _offset(data) for area, data in memory.items()}
         self.views: dict[Area | str, Bytes] = {a: whole[areas[a] : areas[a] + len(data)] for a, data in memory.items()}
         self.engine = FastEngine(program, self._flat, areas, end, note, temp_fill, function_error, services)
