@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plcgen.trajectory import Trajectory
+from plcgen.trajectory import LateColumns, Trajectory
 
 EXAMPLE = Trajectory(
     {
@@ -92,3 +94,36 @@ def test_digest_follows_every_value() -> None:
     assert EXAMPLE.sha256() == Trajectory(dict(EXAMPLE.columns)).sha256()
     assert EXAMPLE.sha256() != Trajectory(changed).sha256()
     assert EXAMPLE.sha256() == "fec5d8e5352f819237a95d38da2bea76dc25ae3fc5d478764a9051023dc59140"
+
+
+def test_the_same_is_the_same_in_every_bit() -> None:
+    zeros = Trajectory({"a": np.array([0.0, 1.0]), "b": np.array([1, 2])})
+    assert zeros.is_same(Trajectory({"a": np.array([0.0, 1.0]), "b": np.array([1, 2])}))
+    for other in (
+        {"a": np.array([-0.0, 1.0]), "b": np.array([1, 2])},
+        {"a": np.array([0.0, 1.0], np.float32), "b": np.array([1, 2])},
+        {"b": np.array([1, 2]), "a": np.array([0.0, 1.0])},
+        {"a": np.array([0.0, 1.0])},
+        {"a": np.array([0.0, 1.0, 1.0]), "b": np.array([1, 2, 2])},
+    ):
+        assert not zeros.is_same(Trajectory(other))
+
+
+def test_values_that_come_again_keep_their_sign_and_their_place() -> None:
+    columns = {"x": np.array([0.1, -0.0, 0.0, 0.1, 1e-7, 0.1], np.float32), "y": np.array([1e22, 2.5, -0.0, 2.5, 0, 3])}
+    rows = ["x,y", "0.1,10000000000000000000000", "-0,2.5", "0,-0", "0.1,2.5", "0.0000001,0", "0.1,3"]
+    assert Trajectory(columns).to_csv().splitlines() == rows
+
+
+def test_columns_are_made_when_they_are_read() -> None:
+    made = []
+
+    def column(name: str) -> np.ndarray:
+        made.append(name)
+        return np.arange(4.0)
+
+    late = Trajectory(LateColumns({name: partial(column, name) for name in ("a", "b", "c")}))
+    chosen = late.rows(np.array([True, False, True, False]))
+    assert (list(chosen.columns), made) == (["a", "b", "c"], [])
+    assert [chosen["b"].tolist(), chosen["b"].tolist(), late["b"].tolist()] == [[0.0, 2.0], [0.0, 2.0], [0, 1, 2, 3]]
+    assert made == ["b"]
