@@ -7,6 +7,11 @@ from __future__ import annotations
 
 from math import acos, cbrt, cos, frexp, hypot, ldexp, pi, sqrt
 
+import numpy as np
+from numpy.typing import NDArray
+
+Samples = NDArray[np.float64]
+
 
 def cubic_roots(a: float, b: float, c: float) -> tuple[float, ...]:
     """Real roots of x^3 + a x^2 + b x + c = 0 in ascending order, equation (1): x = y - a/3.
@@ -61,3 +66,23 @@ def _three_real_roots(p: float, q: float) -> tuple[float, ...]:
     theta = acos(max(-1.0, min(1.0, cosine)))
     largest, lowest = 2 * scale * cos(theta / 3), 2 * scale * cos((theta + 2 * pi) / 3)
     return tuple(sorted((lowest, -q / (lowest * largest), largest)))
+
+
+# ---------------------------------------------------------------------------------------------------------- arrays
+
+
+def only_roots(p: float, q: Samples) -> Samples:
+    """The real root of y^3 + p y + q = 0, p >= 0, for each q of moderate size: as `_one_real_root` finds it."""
+    half = np.abs(q) / 2
+    u = np.cbrt(half + np.hypot(half, (p / 3) * sqrt(p / 3)))
+    u = np.where(u == 0, 1.0, u)
+    v = p / (3 * u)
+    return np.asarray(-q / (u * u + u * v + v * v))
+
+
+def middle_roots(p: float, q: Samples) -> Samples:
+    """The middle one of three real roots of y^3 + p y + q = 0 for each q of moderate size: as `_three_real_roots`."""
+    scale = sqrt(-p / 3)
+    theta = np.arccos(np.clip(-q / (2 * scale**3), -1.0, 1.0))
+    largest, lowest = 2 * scale * np.cos(theta / 3), 2 * scale * np.cos((theta + 2 * pi) / 3)
+    return np.asarray(-q / (lowest * largest))

@@ -38,11 +38,6 @@ class Motion(NamedTuple):
     leg: NDArray[np.int64]
 
 
-def _way(t: Samples, velocity: Samples, acceleration: Samples, jerk: Samples) -> Samples:
-    """Travel in the time t of a phase that starts with a velocity and an acceleration."""
-    return t * (velocity + t * (acceleration / 2 + t * jerk / 6))
-
-
 @dataclass(frozen=True)
 class Reference:
     """Phases in order, from travel 0 at an initial velocity and acceleration; nothing jumps but the jerk."""
@@ -107,7 +102,7 @@ class Reference:
         leg = self._legs[index]
         t = clipped - start_time
         return Motion(
-            travel + _way(t, velocity, acceleration, jerk),
+            travel + t * (velocity + t * (acceleration / 2 + t * jerk / 6)),
             velocity + t * (acceleration + t * jerk / 2),
             acceleration + t * jerk,
             jerk,
@@ -122,10 +117,12 @@ class Reference:
         to_go = travel - start_travel
         low = np.zeros_like(travel, dtype=np.float64)
         step = self._starts[index + 1, 0] - start_time
-        # 64 halvings reach the resolution of float64 for any duration.
-        for _ in range(64):
+        half, sixth = acceleration / 2, jerk / 6
+        # So many halvings of a phase reach the spacing of float64 at its duration.
+        for _ in range(54):
             step /= 2
-            np.add(low, step, out=low, where=_way(low + step, velocity, acceleration, jerk) < to_go)
+            t = low + step
+            np.copyto(low, t, where=t * (velocity + t * (half + t * sixth)) < to_go)
         return np.asarray(start_time + low)
 
     def at_travel(self, travel: Samples) -> Motion:

@@ -21,7 +21,7 @@ from math import inf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from plcgen.profile.cubic import depressed_cubic_roots
+from plcgen.profile.cubic import depressed_cubic_roots, middle_roots, only_roots
 
 Samples = NDArray[np.float64]
 
@@ -111,14 +111,17 @@ class Transition:
         return sqrt(self.slow_corner_velocity**2 + 2 * self.peak_acceleration * (travel - self.slow_corner_travel))
 
     def velocities(self, travel: Samples) -> Samples:
-        """v(x) of an array, to the last bit."""
+        """v(x) of an array, to a few units in the last place."""
         result = np.where(travel <= 0, self.slow_velocity, self.fast_velocity)
         inside = (travel > 0) & (travel < self.travel)
-        middle = inside & (travel >= self.slow_corner_travel) & (travel <= self.fast_corner_travel)
+        slow, fast = inside & (travel < self.slow_corner_travel), inside & (travel > self.fast_corner_travel)
+        middle = inside & ~slow & ~fast
         way = travel[middle] - self.slow_corner_travel
         result[middle] = np.sqrt(self.slow_corner_velocity**2 + 2 * self.peak_acceleration * way)
-        ends = inside & ~middle
-        result[ends] = [self.velocity(x) for x in travel[ends].tolist()]
+        t = only_roots(6 * self.slow_velocity / self.jerk, -6 * travel[slow] / self.jerk)
+        result[slow] = self.slow_velocity + self.jerk * t * t / 2
+        t = middle_roots(-6 * self.fast_velocity / self.jerk, 6 * (self.travel - travel[fast & ~slow]) / self.jerk)
+        result[fast & ~slow] = self.fast_velocity - self.jerk * t * t / 2
         return result
 
     def acceleration_at(self, velocity: float) -> float:

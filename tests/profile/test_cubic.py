@@ -12,7 +12,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from plcgen.profile.cubic import cubic_roots, depressed_cubic_roots
+from plcgen.profile.cubic import cubic_roots, depressed_cubic_roots, middle_roots, only_roots
 
 EPS = sys.float_info.epsilon
 # Roots whose sums and products of two and three are exact in float64.
@@ -139,3 +139,20 @@ def test_general_cubic_with_one_real_root(real: int, centre: int, imaginary: int
     b, c = centre**2 + imaginary**2 + 2 * real * centre, -real * (centre**2 + imaginary**2)
     (root,) = cubic_roots(float(-real - 2 * centre), float(b), float(c))
     assert root == pytest.approx(real, abs=1e-7)
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.floats(-1e3, -1e-3) | st.floats(0.0, 1e3),
+    st.lists(st.floats(1e-3, 1e3), min_size=1, max_size=20),
+    st.sampled_from([-1, 1]),
+)
+def test_arrays_of_roots_are_what_single_ones_are(p: float, sizes: list[float], sign: int) -> None:
+    q = sign * np.array(sizes)
+    if p >= 0:
+        single = [depressed_cubic_roots(p, value)[0] for value in q.tolist()]
+        assert only_roots(p, q).tolist() == pytest.approx(single, rel=8e-15)
+        return
+    three = np.abs(q) < 2 * (-p / 3) ** 1.5 * (1 - 1e-6)
+    single = [depressed_cubic_roots(p, value)[1] for value in q[three].tolist()]
+    assert middle_roots(p, q[three]).tolist() == pytest.approx(single, rel=1e-11)
