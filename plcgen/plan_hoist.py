@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,7 +100,7 @@ def hoist_model(plan: HoistPlan) -> HoistModel:
         shortest_jerk_time=trip.shortest_jerk_time,
         position_window=position_window(plan.job),
         min_travel=creeping_travel(limits),
-        trip=lambda distance: _trip_model(plan_trip(reached, distance)),
+        trip=cache(lambda distance: _trip_model(plan_trip(reached, distance))),
         stop=lambda velocity, acceleration: plan_stop(limits, velocity, acceleration),
         envelope=envelope,
     )

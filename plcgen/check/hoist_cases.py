@@ -174,15 +174,16 @@ def _trip_curve(bench: Bench) -> Iterator[Check]:
     model, worst, answers = bench.model, (0.0, 1.0), []
     travel = model.limits.travel
     rig, moment = standing(bench, 0.0)
+    places = _places(travel)
     for up in (True, False):
-        for number, place in enumerate(_places(travel)):
+        behind, ahead = (places, travel - places) if up else (travel - places, places)
+        curve = model.envelope(behind, ahead).tolist()
+        for number, (place, expected) in enumerate(zip(places.tolist(), curve, strict=True)):
             rig.restore(moment)
             rig.set(directionUp=up, restart=True)
             rig.force(actualTravel=place)
             rig.scan()
             rig.set(restart=False)
-            behind, ahead = (place, travel - place) if up else (travel - place, place)
-            expected = float(model.envelope(np.array([behind]), np.array([ahead]))[0])
             segment = Segment(rig.trace(), 0, 1, up)
             bound = float(envelope_bound(model, segment, np.array([expected]))[0])
             deviation = abs(rig.get("envelopeVelocity") - expected)
@@ -196,10 +197,11 @@ def _trip_curve(bench: Bench) -> Iterator[Check]:
     yield wrong("wrong_trips", answers)
 
 
-def _places(travel: float) -> list[float]:
+def _places(travel: float) -> np.ndarray:
     """200 places as REAL holds them, and 20 that crowd each stop."""
     crowd = np.geomspace(1e-5, 0.02, 20) * travel
-    return [float(np.float32(place)) for place in (*np.linspace(0.0, travel, 200), *crowd, *(travel - crowd))]
+    places = np.concatenate([np.linspace(0.0, travel, 200), crowd, travel - crowd])
+    return places.astype(np.float32).astype(np.float64)
 
 
 def envelope_bound(model: HoistModel, segment: Segment, expected: np.ndarray) -> np.ndarray:
