@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from itertools import cycle
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 
 TELLING_CYCLES = (1.0, 0.2, 5.0)
 """Of the sample period: at some of them each limit decides on the duration of a move."""
+MOST_KEPT = 256
+"""References of runs."""
 GARBAGE = (0x7F, 0x00)
 """Bytes that fill temporaries before each call: a large REAL or nothing, one after the other with each fresh block."""
 
@@ -56,10 +59,13 @@ class CosinePlan(Plan):
     @abstractmethod
     def constants(self) -> tuple[ConstantGroup, ...]: ...
 
-    @property
-    @abstractmethod
+    @cached_property
     def model(self) -> RampModel | MoveModel:
-        """The references that the checks ask for."""
+        """The references that the checks ask for: the same for all targets, which mostly ask for the same ones."""
+        return self._model()
+
+    @abstractmethod
+    def _model(self) -> RampModel | MoveModel: ...
 
     @abstractmethod
     def stretches(self) -> Iterator[Stretch]: ...
@@ -188,11 +194,11 @@ class RampPlan(CosinePlan):
     def _samples(self, change: float, cycle: float) -> int:
         return int(self.ramps.ramp_time(change) / cycle) + 2
 
-    @property
-    def model(self) -> RampModel:
-        def motions(start: float, commands: Sequence[Command], count: int, cycle: float) -> Iterator[Motion]:
+    def _model(self) -> RampModel:
+        @lru_cache(maxsize=MOST_KEPT)
+        def motions(start: float, commands: tuple[Command, ...], count: int, cycle: float) -> tuple[Motion, ...]:
             orders = [Order(c.sample, c.velocity, c.hold, c.rest) for c in commands]
-            return possible(self.ramps, start, orders, count, cycle)
+            return tuple(possible(self.ramps, start, orders, count, cycle))
 
         return RampModel(
             **vars(_limits(self.job, self.ramps.counts)),
@@ -228,8 +234,7 @@ class MovePlan(CosinePlan):
             samples = self.moves.samples(distance)[0]
             yield next(self.moves.possible(distance, samples + self.moves.filter_length - 1))
 
-    @property
-    def model(self) -> MoveModel:
+    def _model(self) -> MoveModel:
         distances = tuple(_distances(self.job))
         cycles = [share * self.job.sample_period for share in TELLING_CYCLES]
         telling = self.moves.telling(max(map(abs, distances)), cycles)
@@ -241,7 +246,7 @@ class MovePlan(CosinePlan):
             max_distance=self.moves.max_distance,
             samples=lambda distance, cycle: max(self.moves.samples(distance, cycle)),
             turn=self.moves.turn,
-            possible=self.moves.possible,
+            possible=lru_cache(maxsize=MOST_KEPT)(lambda *move: tuple(self.moves.possible(*move))),
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,7 +74,12 @@ class HoistPlan(Plan):
 
         names = block_names(self.job, target)
         block, instance = (name.strip('"').replace(" ", "") for name in (names.fb, names.db))
-        return Subject(load(target, files), block, instance, hoist_model(self))
+        return Subject(load(target, files), block, instance, self.model)
+
+    @cached_property
+    def model(self) -> HoistModel:
+        """The references that the checks ask for, the same for all targets."""
+        return hoist_model(self)
 
 
 def prepare(job: Job) -> HoistPlan:

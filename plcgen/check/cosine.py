@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from random import Random
 
@@ -126,7 +127,7 @@ def ramp_run(
     if worn or start:
         _restart(axis, actualVelocity=start)
     trace = _drive(axis, model, orders, count, cycle)
-    motion = likeliest(trace, model.possible(start, orders, count, cycle))
+    motion = likeliest(trace, model.possible(start, tuple(orders), count, cycle))
     ordered = frozenset(order.sample for order in orders if order.velocity is not None)
     return Run(name, model, start, trace, motion, ordered, cycle, len(axis.faults))
 
@@ -304,30 +305,36 @@ def _standstill(subject: Subject) -> Check:
 
     Nothing may add up: an order comes before the one before it is done, or waits until it is.
     """
-    model, random, axis = subject.model, Random(1), subject.make()
+    model, axis = subject.model, subject.make()
     axis.set(cycleTime=10 * model.sample_period)
     axis.scan()
     wrong = 0
-    orders = RANDOM_ORDERS
-    if isinstance(model, MoveModel):
-        orders = min(orders, MOST_RANDOM_SAMPLES // (2 * model.filter_length + 20))
-    steps: list[Step] = []
-    for number in range(1, orders + 1):
-        order = {"execute": True, **_random_order(model, random)}
-        steps += (order, 1), ({"execute": False}, random.randrange(1, 20))
-        if number % REST_EVERY == 0 or isinstance(model, MoveModel):
-            axis.play(steps)
-            steps.clear()
-            wrong += not _comes_to_rest(axis, model)
+    for steps in _random_orders(model):
+        axis.play(steps)
+        wrong += not _comes_to_rest(axis, model)
     return Check("standstill_not_exact", float(wrong), 0.0, "1")
 
 
-def _random_order(model: CosineModel, random: Random) -> dict[str, float]:
+@lru_cache(maxsize=1)
+def _random_orders(model: CosineModel) -> list[list[Step]]:
+    """Orders from one stop to the next: the same for every target."""
+    random, count, size = Random(1), RANDOM_ORDERS, REST_EVERY
+    if isinstance(model, MoveModel):
+        count, size = min(count, MOST_RANDOM_SAMPLES // (2 * model.filter_length + 20)), 1
+    return [[step for _ in range(size) for step in _random_order(model, random)] for _ in range(count // size)]
+
+
+def _random_order(model: CosineModel, random: Random) -> Iterator[Step]:
+    """Given in one sample, and followed by some more."""
     if isinstance(model, MoveModel):
         # Most are so short that they end by themselves.
         size = model.min_distance * (max(map(abs, model.distances)) / model.min_distance) ** (0.6 * random.random())
-        return {"distance": _real(random.choice((-1, 1)) * size)}
-    return {"targetVelocity": _real(model.max_velocity * random.uniform(-1, 1) * 10.0 ** random.uniform(-5, 0))}
+        order = {"distance": _real(random.choice((-1, 1)) * size)}
+    else:
+        share = random.uniform(-1, 1) * 10.0 ** random.uniform(-5, 0)
+        order = {"targetVelocity": _real(model.max_velocity * share)}
+    yield {"execute": True, **order}, 1
+    yield {"execute": False}, random.randrange(1, 20)
 
 
 def _comes_to_rest(axis: Axis, model: CosineModel) -> bool:

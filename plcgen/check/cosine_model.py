@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -94,7 +94,7 @@ class RampModel(CosineModel):
 
     ramps: tuple[Ramp, ...]
     samples: Callable[[float, float], int]
-    possible: Callable[[float, Sequence[Command], int, float], Iterator[Motion]]
+    possible: Callable[[float, tuple[Command, ...], int, float], Iterable[Motion]]
 
 
 @dataclass(frozen=True)
@@ -111,4 +111,4 @@ class MoveModel(CosineModel):
     max_distance: float
     samples: Callable[[float, float], int]
     turn: Callable[[float, float], int]
-    possible: Callable[[float, int, int | None, float], Iterator[Motion]]
+    possible: Callable[[float, int, int | None, float], Iterable[Motion]]

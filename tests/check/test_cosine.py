@@ -8,11 +8,12 @@ from random import Random
 import pytest
 
 from plcgen import pipeline
+from plcgen.check.cosine_model import RampModel
 from plcgen.errors import JobError
 from plcgen.golden import deviation
 from plcgen.job import Job, parse_job
 from plcgen.jobfile_cosine import FITS, SHAPES
-from plcgen.plan_cosine import CosinePlan, MovePlan, RampPlan
+from plcgen.plan_cosine import CosinePlan
 from plcgen.trajectory import disagreements
 
 TARGETS = ("s7-300-scl", "tia-scl", "s7-200-smart")
@@ -57,10 +58,8 @@ seed = {random.randrange(3)}
 def longest(plan: CosinePlan) -> int:
     """Samples of the longest ramp or move."""
     model = plan.model
-    if isinstance(plan, RampPlan):
-        return plan.model.samples(2 * model.max_velocity, model.sample_period)
-    assert isinstance(plan, MovePlan)
-    return plan.model.samples(plan.model.distances[0], model.sample_period)
+    change = 2 * model.max_velocity if isinstance(model, RampModel) else model.distances[0]
+    return model.samples(change, model.sample_period)
 
 
 def random_plans(shape: str) -> Iterator[CosinePlan]:

@@ -21,8 +21,8 @@ import numpy as np
 from plcgen.plc.fast import native_bodies, native_rows, vm
 from plcgen.plc.fast.encode import NUMBERS, SITE, Code
 
-SCANS_A_ROW = 100
-"""Of the virtual machine take as long as compiling a row."""
+SCANS_A_ROW = 30
+"""After so many compiling pays, which takes as long as some hundred: what is compiled serves other runs too."""
 MOST_KEPT = 256
 DIGEST = 32
 """Bytes before an object that stand for all others."""
