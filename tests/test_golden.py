@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +11,9 @@ import pytest
 from plcgen import golden, pipeline
 from plcgen.check.verdict import Check, TargetVerdict
 from plcgen.errors import PlcgenError
-from plcgen.golden import check_case, check_golden, stored_text, thinned, unified
+from plcgen.golden import CaseReport, check_case, check_golden, stored_text, thinned, unified
 from plcgen.job import Job
+from plcgen.processes import in_processes
 from plcgen.trajectory import Trajectory, disagreements
 
 ROOT = Path(__file__).parents[1]
@@ -166,12 +167,22 @@ def test_cases_of_a_folder(case: Path) -> None:
     assert done == ["1 of 1 cases checked"]
 
 
-def test_cases_in_processes(tmp_path: Path) -> None:
+def test_cases_in_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The longest begins first; they are told in the order of their names."""
     for name in ("b", "a"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "job.toml").write_text("name = 1")
-    reports = list(golden._each(golden.find_cases(tmp_path), False))
+    (tmp_path / "b" / "trace-tia-scl.csv").write_text("# 7816 rows, sha256 00\n")
+    begun: list[str] = []
+
+    def noted(function: object, cases: list[Path], update: list[bool]) -> Iterator[CaseReport]:
+        begun.extend(case.name for case in cases)
+        return in_processes(check_case, cases, update)
+
+    monkeypatch.setattr(golden, "in_processes", noted)
+    reports = check_golden(tmp_path, False, lambda _line: None)
     assert [(report.case, bool(report.error)) for report in reports] == [("a", True), ("b", True)]
+    assert begun == ["b", "a"]
 
 
 def test_a_case_is_its_only_one(tmp_path: Path) -> None:

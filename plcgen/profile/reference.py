@@ -122,7 +122,12 @@ class Reference:
         for _ in range(54):
             step /= 2
             t = low + step
-            np.copyto(low, t, where=t * (velocity + t * (half + t * sixth)) < to_go)
+            way = t * sixth
+            way += half
+            way *= t
+            way += velocity
+            way *= t
+            np.copyto(low, t, where=way < to_go)
         return np.asarray(start_time + low)
 
     def at_travel(self, travel: Samples) -> Motion:

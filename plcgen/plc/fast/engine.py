@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from types import CodeType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -63,6 +65,12 @@ def _drawn(program: Program, areas: Mapping[Area | str, int], first_byte: int, t
         (slots.view(np.float64) if isinstance(value, float) else slots)[slot] = value
     rows = np.array(code.rows or [[0] * WIDTH], dtype=np.int64)
     return _Image(program, code, rows, slots, sites, Compiler(code, rows))
+
+
+@lru_cache(maxsize=1024)
+def _python(text: str) -> CodeType:
+    """Compiled once for all machines."""
+    return compile(text, "<operator>", "exec")
 
 
 def _furnished(slots: np.ndarray) -> np.ndarray:
@@ -203,7 +211,7 @@ class FastEngine:
         body = operator.python("result", names, request.site)
         text = "\n".join([f"def evaluate({', '.join(names)}):", *(f"    {line}" for line in body), "    return result"])
         space = dict(self._names)
-        exec(text, space)
+        exec(_python(text), space)
         found: Callable[..., Any] = space["evaluate"]
         self._evaluators[row] = found
         return found

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from llvmlite import ir
 from numba import njit, types
+from numba.core import cgutils
 from numba.extending import intrinsic
 
 OVERFLOW, INVALID, BY_ZERO, OUT_OF_RANGE = range(4)
@@ -30,6 +31,20 @@ def _called(_typing: Any, address: Any, room: Any, memory: Any, start: Any) -> A
 
 
 called: Any = intrinsic(_called)
+
+
+def _moved(_typing: Any, target: Any, source: Any, size: Any) -> Any:
+    """Bytes from an address to another, at once."""
+
+    def generated(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+        to, from_ = (builder.inttoptr(value, ir.IntType(8).as_pointer()) for value in values[:2])
+        cgutils.raw_memmove(builder, to, from_, values[2], 1)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, types.int64), generated
+
+
+moved: Any = intrinsic(_moved)
 
 
 @compiled
