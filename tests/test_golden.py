@@ -175,9 +175,9 @@ def test_cases_in_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     (tmp_path / "b" / "trace-tia-scl.csv").write_text("# 7816 rows, sha256 00\n")
     begun: list[str] = []
 
-    def noted(function: object, cases: list[Path], update: list[bool]) -> Iterator[CaseReport]:
+    def noted(function: Callable[..., CaseReport], cases: list[Path], update: list[bool]) -> Iterator[CaseReport]:
         begun.extend(case.name for case in cases)
-        return in_processes(check_case, cases, update)
+        return in_processes(function, cases, update)
 
     monkeypatch.setattr(golden, "in_processes", noted)
     reports = check_golden(tmp_path, False, lambda _line: None)

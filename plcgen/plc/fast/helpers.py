@@ -14,36 +14,39 @@ from numba.extending import intrinsic
 
 OVERFLOW, INVALID, BY_ZERO, OUT_OF_RANGE = range(4)
 COUNT, DIVIDED, FIRST = 0, 1, 2
+WHOLE = ir.IntType(64)
 
 compiled: Callable[[Any], Any] = njit(cache=True, error_model="numpy", inline="never")
 
 
 def _called(_typing: Any, address: Any, room: Any, memory: Any, start: Any) -> Any:
     """What native code at an address returns for the addresses of room and memory and the first row."""
-    number = ir.IntType(64)
-    function = ir.FunctionType(number, [number] * 3).as_pointer()
+    function = ir.FunctionType(WHOLE, [WHOLE] * 3).as_pointer()
 
     def generated(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        whole = [context.cast(builder, v, kind, types.int64) for v, kind in zip(values, signature.args, strict=True)]
-        return builder.call(builder.inttoptr(whole[0], function), whole[1:])
+        at, *rest = _whole_numbers(context, builder, signature, values)
+        return builder.call(builder.inttoptr(at, function), rest)
 
     return types.int64(address, room, memory, start), generated
 
 
-called: Any = intrinsic(_called)
-
-
 def _moved(_typing: Any, target: Any, source: Any, size: Any) -> Any:
     """Bytes from an address to another, at once."""
+    byte = ir.IntType(8).as_pointer()
 
     def generated(context: Any, builder: Any, signature: Any, values: Any) -> Any:
-        to, from_ = (builder.inttoptr(value, ir.IntType(8).as_pointer()) for value in values[:2])
-        cgutils.raw_memmove(builder, to, from_, values[2], 1)
+        to, at, count = _whole_numbers(context, builder, signature, values)
+        cgutils.raw_memmove(builder, builder.inttoptr(to, byte), builder.inttoptr(at, byte), count, 1)
         return context.get_dummy_value()
 
-    return types.void(types.int64, types.int64, types.int64), generated
+    return types.void(target, source, size), generated
 
 
+def _whole_numbers(context: Any, builder: Any, signature: Any, values: Any) -> list[Any]:
+    return [context.cast(builder, value, kind, types.int64) for value, kind in zip(values, signature.args, strict=True)]
+
+
+called: Any = intrinsic(_called)
 moved: Any = intrinsic(_moved)
 
 

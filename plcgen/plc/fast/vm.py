@@ -13,7 +13,7 @@ from numba import njit
 
 from plcgen.plc.fast.helpers import *
 
-HELPERS = "2d06f87a6362332c"
+HELPERS = "aaecaa514acfc2c8"
 """Beginning of the SHA-256 of helpers.py. Numba compiles anew when a file has changed, not when what it calls has."""
 DONE, REQUEST, EXHAUSTED, FULL, HANDED_OVER = range(5)
 """The last is of native code: the virtual machine goes on from the row that it has noted."""
