@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from plcgen.kept import kept
 from plcgen.plc.source import SourceText, decode_source
 from plcgen.targets import SMART, TARGETS
 
@@ -27,6 +28,7 @@ def load(target: str, files: Mapping[str, bytes]) -> Program:
 
 
 @lru_cache(maxsize=8)
+@kept
 def _load(target: str, entries: tuple[tuple[str, bytes], ...]) -> Program:
     if TARGETS[target].dialect == "stl":
         from plcgen.plc.stl import s7_lowering as stl
@@ -49,6 +51,7 @@ def load_smart(name: str, files: Mapping[str, bytes], timed: bool = False) -> Pr
 
 
 @lru_cache(maxsize=8)
+@kept
 def _load_smart(entries: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
     from plcgen.plc.stl.lowering import lower
 
@@ -56,6 +59,7 @@ def _load_smart(entries: tuple[tuple[str, bytes], ...], timed: bool) -> Program:
 
 
 @lru_cache(maxsize=32)
+@kept
 def read_smart(name: str, data: bytes) -> tuple[SmartBlock, ...]:
     """The blocks of one file for the SMART."""
     from plcgen.plc.stl.parser import parse
@@ -97,6 +101,7 @@ def _entries(target: str, files: Mapping[str, bytes]) -> list[tuple[str, bytes]]
 
 
 @lru_cache(maxsize=16)
+@kept
 def _parsed_stl(name: str, data: bytes) -> tuple[StlBlock, ...]:
     from plcgen.plc.stl.s7_parser import parse
 

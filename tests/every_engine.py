@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from plcgen import kept
 from plcgen.plc import engines
 
 NATIVE = "native"
@@ -26,4 +27,6 @@ def choose(engine: str, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
 
     monkeypatch.setattr(fast, "_IMAGES", {})
     monkeypatch.setattr(native, "SCANS_A_ROW", 0 if engine == NATIVE else NEVER)
-    monkeypatch.setattr(native, "_folder", lambda: folder / engine)
+    place = folder / engine
+    place.mkdir(exist_ok=True)
+    monkeypatch.setattr(kept, "folder", lambda: place)

@@ -8,7 +8,7 @@ DATE_AND_TIME their BCD digits).
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -51,6 +51,10 @@ class Elementary:
     def __hash__(self) -> int:
         return hash(self.name)
 
+    def __reduce__(self) -> tuple[Callable[[str], object], tuple[str]]:
+        """There is one of each, also in another process."""
+        return _row_of, (self.name,)
+
     @cached_property
     def codec(self) -> Struct:
         return Struct(">" + self.code)
@@ -89,6 +93,10 @@ class Elementary:
     def filled(self, pattern: int) -> Value:
         """The value when every byte is `pattern`."""
         return self.decode(bytes([pattern]) * self.codec.size)
+
+
+def _row_of(name: str) -> Elementary:
+    return ELEMENTARY[name]
 
 
 def round_real(value: float) -> float:

@@ -133,7 +133,7 @@ class Smart(LoopedScans):
         self.run_times: dict[str, float] = {}
         self._costs = [costs[name] for name in COSTS]
         self._is_timed = any(
-            isinstance(item, Compute) and item.operator is SPEND
+            isinstance(item, Compute) and item.operator == SPEND
             for function in program.functions.values()
             for item in function.body
         )

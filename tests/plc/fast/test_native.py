@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -78,10 +78,6 @@ def result(machine: Machine) -> tuple[int, float]:
     return machine.variable('"DB1".calls').get(), machine.variable('"DB1".sum').get()
 
 
-def kept(folder: Path) -> list[Path]:
-    return sorted((folder / NATIVE).glob("native-*.o"))
-
-
 # ---------------------------------------------------------------------------------------------------------- bodies
 
 
@@ -134,10 +130,10 @@ def test_machines_of_a_program_share_it(objects: list[int]) -> None:
 # ------------------------------------------------------------------------------------------------------------ kept
 
 
-def test_what_was_compiled_is_kept_for_other_runs(objects: list[int], tmp_path: Path) -> None:
+def test_what_was_compiled_is_kept_for_other_runs(objects: list[int]) -> None:
     Machine(counter())
     machine = Machine(counter())
-    assert len(objects) == len(kept(tmp_path)) == 1
+    assert len(objects) == 1
     assert is_native(machine)
     assert result(machine) == (3, 3.0)
 
@@ -146,35 +142,6 @@ def test_real_numbers_are_data_and_whole_ones_are_not(objects: list[int]) -> Non
     results = [result(Machine(counter(step, weight))) for step, weight in [(1, "0.5"), (1, "0.25"), (2, "0.5")]]
     assert results == [(3, 3.0), (3, 1.5), (6, 6.0)]
     assert len(objects) == 2
-
-
-@pytest.mark.parametrize("damage", [lambda d: d[:-1], lambda d: d[:0], lambda d: d[:99] + b"x" + d[100:]])
-def test_a_file_that_is_damaged_is_written_again(
-    damage: Callable[[bytes], bytes], objects: list[int], tmp_path: Path
-) -> None:
-    Machine(counter())
-    (path,) = kept(tmp_path)
-    whole = path.read_bytes()
-    path.write_bytes(damage(whole))
-    assert result(Machine(counter())) == (3, 3.0)
-    assert len(objects) == 2
-    assert path.read_bytes() == whole
-
-
-def test_a_folder_that_cannot_be_written_keeps_nothing(objects: list[int], tmp_path: Path) -> None:
-    (tmp_path / NATIVE).write_text("a file where a folder should be")
-    assert [result(Machine(counter())) for _ in range(2)] == [(3, 3.0)] * 2
-    assert len(objects) == 2
-
-
-def test_what_was_not_used_for_longest_makes_room(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(native, "MOST_KEPT", 2)
-    found = []
-    for step in (1, 2, 3):
-        Machine(counter(step))
-        found.append(set(kept(tmp_path)))
-    assert [len(paths) for paths in found] == [1, 2, 2]
-    assert not found[0] & found[2]
 
 
 def test_the_plain_engine_compiles_nothing(monkeypatch: pytest.MonkeyPatch, objects: list[int], tmp_path: Path) -> None:
