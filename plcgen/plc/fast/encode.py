@@ -1,7 +1,8 @@
 """From core functions to code of the virtual machine: slots, addresses, rows of numbers.
 
-Slot 0 is zero, 1 the first byte of the running instance, 3 the factor of functions that a CPU approximates. Each
-register, constant and parameter has a slot of its own: blocks that call themselves have no code here.
+Slot 0 is zero, 1 the first byte of the running instance, 2 the byte that fills temporaries, 3 the factor of functions that
+a CPU approximates. Each register, constant and parameter has a slot of its own: blocks that call themselves have no code
+here.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from plcgen.plc.operators import INDEX, Operator
 from plcgen.plc.source import Span
 from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
 
-ZERO, BASE, _FREE, FACTOR, FIRST_SLOT = range(5)
+ZERO, BASE, FILLED, FACTOR, FIRST_SLOT = range(5)
 BACK, GO, IF, UNLESS, CALL, RETURN, ASK, MOVE, FILL, COPY = range(10)
 LOADS: Mapping[str, int] = {"B": 11, "b": 12, "H": 13, "h": 14, "I": 15, "i": 16, "f": 17, "Q": 18, "q": 18, "d": 18}
 STORES: Mapping[str, int] = {"B": 20, "b": 20, "H": 21, "h": 21, "I": 22, "i": 22, "f": 23, "Q": 24, "q": 24, "d": 24}
@@ -79,6 +80,8 @@ class Code:
     """Of frames, behind the areas."""
     rows: list[list[int]] = field(default_factory=list)
     constants: dict[int, int | float] = field(default_factory=dict)
+    temporaries: dict[int, Elementary] = field(default_factory=dict)
+    """Slots of what temporaries hold before a call: the byte that fills them, as a value of their type."""
     data: dict[int, bytes] = field(default_factory=dict)
     requests: dict[int, Request] = field(default_factory=dict)
     entries: dict[str, Entry] = field(default_factory=dict)
@@ -117,10 +120,9 @@ class Code:
 
 @dataclass(frozen=True)
 class Target:
-    """What is written for: first bytes of areas, the pattern in temporaries, numbers of sites and of bodies."""
+    """What is written for: first bytes of areas, numbers of sites and of bodies."""
 
     areas: Mapping[Area | str, int]
-    temp_fill: int
     site: Callable[[Function, Span], int]
     bodies: Mapping[str, int]
 
@@ -183,7 +185,7 @@ class _Writer:
         entry = code.entries[function.name]
         code.entries[function.name] = Entry(len(code.rows), entry.parameters, entry.arrivals, entry.results, self.frame)
         if function.frame_bytes and not function.frame_given:
-            code.row(FILL, self.frame, 0, function.frame_bytes, self.target.temp_fill)
+            code.row(FILL, self.frame, 0, function.frame_bytes, FILLED)
         self._fill_temporaries()
         for place, arrival in zip(function.parameters, entry.arrivals, strict=True):
             if isinstance(place, Cell):
@@ -198,9 +200,7 @@ class _Writer:
         assert not any(register.number in self.registers for register in temporaries)
         slots = [self._register(register) for register in temporaries]
         for register in temporaries:
-            value = register.type.filled(self.target.temp_fill)
-            assert isinstance(value, int | float)
-            self.code.constants[self.code.slot()] = value
+            self.code.temporaries[self.code.slot()] = register.type
         if slots:
             self.code.row(SPREAD, slots[0], slots[-1] + 1, len(slots))
 

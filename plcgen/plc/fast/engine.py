@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from types import CodeType
 from typing import Any, NoReturn
@@ -16,13 +16,13 @@ from plcgen.plc.core import Area, Function, Program
 from plcgen.plc.engine import COUNTERS, NO_SERVICES, Site
 from plcgen.plc.fast import vm
 from plcgen.plc.fast.bodies import KINDS
-from plcgen.plc.fast.encode import FACTOR, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
+from plcgen.plc.fast.encode import FACTOR, FILLED, SITE, WIDTH, Code, Entry, Request, Target, UnsuitableError, encoded
 from plcgen.plc.fast.helpers import FIRST
 from plcgen.plc.fast.native import Compiler
 from plcgen.plc.fast.vm import NATIVE, QUIET, START, enter
 from plcgen.plc.operators import Operator
 from plcgen.plc.source import Span
-from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type
+from plcgen.plc.types import BOOL, BYTE_BITS, Elementary, Type, Value
 
 
 @dataclass(frozen=True)
@@ -35,34 +35,47 @@ class _Image:
     slots: np.ndarray
     sites: list[Site]
     compiler: Compiler
+    _filled: dict[int, np.ndarray] = field(default_factory=dict)
+
+    def slots_with(self, temp_fill: int) -> np.ndarray:
+        """Slots before the first call, with the byte that fills temporaries."""
+        if temp_fill not in self._filled:
+            self._filled[temp_fill] = self.slots.copy()
+            values = {slot: kind.filled(temp_fill) for slot, kind in self.code.temporaries.items()}
+            _put(self._filled[temp_fill], {FILLED: temp_fill, **values})
+        return self._filled[temp_fill]
 
 
-_IMAGES: dict[tuple[int, int, int], _Image] = {}
+def _put(slots: np.ndarray, values: Mapping[int, Value]) -> None:
+    for slot, value in values.items():
+        (slots.view(np.float64) if isinstance(value, float) else slots)[slot] = value
+
+
+_IMAGES: dict[tuple[int, int], _Image] = {}
 MOST_IMAGES = 16
 
 
-def _image(program: Program, areas: Mapping[Area | str, int], first_byte: int, temp_fill: int) -> _Image:
+def _image(program: Program, areas: Mapping[Area | str, int], first_byte: int) -> _Image:
     """Machines of a program have their areas in the same places, since they have the same ones."""
-    key = id(program), first_byte, temp_fill
+    key = id(program), first_byte
     found = _IMAGES.get(key)
     if found is None or found.program is not program:
         while len(_IMAGES) >= MOST_IMAGES:
             del _IMAGES[next(iter(_IMAGES))]
-        found = _IMAGES[key] = _drawn(program, areas, first_byte, temp_fill)
+        found = _IMAGES[key] = _drawn(program, areas, first_byte)
     return found
 
 
-def _drawn(program: Program, areas: Mapping[Area | str, int], first_byte: int, temp_fill: int) -> _Image:
+def _drawn(program: Program, areas: Mapping[Area | str, int], first_byte: int) -> _Image:
     sites: list[Site] = []
 
     def site(function: Function, span: Span) -> int:
         sites.append(Site(function, span))
         return len(sites) - 1
 
-    code = encoded(program, first_byte, Target(areas, temp_fill, site, vm.BODIES))
+    code = encoded(program, first_byte, Target(areas, site, vm.BODIES))
     slots = np.zeros(code.slots, np.int64)
-    for slot, value in code.constants.items():
-        (slots.view(np.float64) if isinstance(value, float) else slots)[slot] = value
+    _put(slots, code.constants)
     rows = np.array(code.rows or [[0] * WIDTH], dtype=np.int64)
     return _Image(program, code, rows, slots, sites, Compiler(code, rows))
 
@@ -101,7 +114,7 @@ class FastEngine:
     ) -> None:
         self.budget = [0]
         self._note, self._program = note, program
-        image = _image(program, areas, first_byte, temp_fill)
+        image = _image(program, areas, first_byte)
         if image.code.first_byte > len(flat):
             raise UnsuitableError
         self._sites, self._code, self._memory = image.sites, image.rows, flat
@@ -109,7 +122,7 @@ class FastEngine:
         self._entries, self._requests, self.end = image.code.entries, image.code.requests, image.code.first_byte
         for start, data in image.code.data.items():
             flat[start : start + len(data)] = np.frombuffer(data, np.uint8)
-        self._room = _furnished(image.slots)
+        self._room = _furnished(image.slots_with(temp_fill))
         self._integers = self._room[vm.SLOTS :]
         self._floats = self._integers.view(np.float64)
         self._floats[FACTOR] = 1.0 + function_error

@@ -16,7 +16,7 @@ from numba import njit
 from plcgen.plc.fast.engine import FastEngine
 from plcgen.plc.fast.vm import COUNTS, DONE, EVENTS, QUIET, REQUEST, SLOTS, START, enter, run
 
-VM = "1482421283ba34e6"
+VM = "1aa064b2122f2c56"
 """Beginning of the SHA-256 of vm.py, written by generate.py."""
 
 SPECIAL, IMAGE, OUTPUTS, SIZE, WATCHED, TABLES, TABLES_END, ACCUMULATORS = range(8)

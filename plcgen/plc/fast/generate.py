@@ -150,7 +150,7 @@ FIXED: tuple[tuple[str, ...], ...] = (
      "I[1] = room[STACK + room[CALLS] + 1]"),  # return
     ("room[START] = pc", "return REQUEST"),
     ("I[t] = I[a]",),
-    ("for place in range(b):", "    M[t + place] = c"),  # fill
+    ("for place in range(b):", "    M[t + place] = I[c] & 255"),  # fill
     ("p, bit = t + I[a] + (I[b] >> 3), c + I[d] + (I[code[pc, 7]] >> 3)", "for place in range(code[pc, 6]):",
      "    M[p + place] = M[bit + place]"),  # copy
     # 10 .. : load t from a + bytes I[b] + bits I[c]

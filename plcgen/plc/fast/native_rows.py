@@ -337,8 +337,9 @@ class _Function:
 
     def fill(self, row: list[int]) -> None:
         place = self.address(row[1], ZERO, ZERO)
+        byte = self.text.value("i8", f"trunc i64 {self.integer(row[4]).name} to i8")
         self.text.lines.append(
-            f"  call void @llvm.memset.p0.i64(ptr {place.name}, i8 {row[4] & 255}, i64 {row[3]}, i1 false)"
+            f"  call void @llvm.memset.p0.i64(ptr {place.name}, i8 {byte.name}, i64 {row[3]}, i1 false)"
         )
 
     def copy(self, row: list[int]) -> None:

@@ -252,7 +252,7 @@ def run(code: Any, room: Any, M: Any) -> int:
             I[t] = I[a]
         elif op == 8:
             for place in range(b):
-                M[t + place] = c
+                M[t + place] = I[c] & 255
         elif op == 9:
             p, bit = t + I[a] + (I[b] >> 3), c + I[d] + (I[code[pc, 7]] >> 3)
             for place in range(code[pc, 6]):
