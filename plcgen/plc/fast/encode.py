@@ -1,8 +1,8 @@
 """From core functions to code of the virtual machine: slots, addresses, rows of numbers.
 
-Slot 0 is zero, 1 the first byte of the running instance, 2 the byte that fills temporaries, 3 the factor of functions that
-a CPU approximates. Each register, constant and parameter has a slot of its own: blocks that call themselves have no code
-here.
+Slot 0 is zero, 1 the first byte of the running instance, 2 the byte that fills temporaries, 3 the factor of functions
+that a CPU approximates. Each register, constant and parameter has a slot of its own: blocks that call themselves have
+no code here.
 """
 
 from __future__ import annotations
