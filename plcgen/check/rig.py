@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from math import floor, inf
 from random import Random
@@ -53,6 +52,9 @@ class Plant:
     velocity: float = 0.0
     time: float = 0.0
     history: deque[float] = field(default_factory=deque)
+
+    def copy(self) -> Plant:
+        return replace(self, history=self.history.copy())
 
     def move_to(self, time: float) -> None:
         self.travel += self.velocity * (time - self.time)
@@ -249,12 +251,12 @@ class Rig(Instance):
         self.scans += rows
 
     def snapshot(self) -> Snapshot:
-        return Snapshot(bytes(self._memory), deepcopy(self.plant), self.scans)
+        return Snapshot(bytes(self._memory), self.plant.copy(), self.scans)
 
     def restore(self, moment: Snapshot) -> None:
         """Go back to a moment; the record begins anew there."""
         self._memory[:] = moment.memory
-        self.plant = deepcopy(moment.plant)
+        self.plant = moment.plant.copy()
         self.scans = moment.scans
         self.release()
         self._images.clear()
