@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from plcgen.errors import SourceError
+from plcgen.kept import kept
 from plcgen.plc.effort.steps import Prices, Routines, longest
 from plcgen.render.comments import Words
 from plcgen.targets import SMART, TARGETS
@@ -47,7 +48,13 @@ def estimate(target: str, files: Files, data_bytes: int = 0) -> Estimate:
 
     Raises SourceError for what cannot be parsed.
     """
-    own = {name: data for name, data in files.items() if "_example" not in name}
+    own = tuple((name, data) for name, data in files.items() if "_example" not in name)
+    return _estimate(target, own, data_bytes)
+
+
+@kept
+def _estimate(target: str, entries: tuple[tuple[str, bytes], ...], data_bytes: int) -> Estimate:
+    own = dict(entries)
     if target == SMART.name:
         from plcgen.estimates_smart import smart_estimate
 
