@@ -31,11 +31,12 @@ JOB = {
 MAY_IMPORT = {
     "errors": set[str](),
     "trajectory": set[str](),
+    "kept": set[str](),
     **dict.fromkeys(JOB, JOB | {"errors"}),
     "profile": {"profile", "job", "trajectory", "errors"},
     "render": {"render", "profile", "targets", "job", "errors"},
     # An interpreter or a check that could read the intended answer would be no oracle.
-    "plc": {"plc", "errors"},
+    "plc": {"plc", "errors", "kept"},
     "check": {"check", "plc", "job", "trajectory", "errors"},
 }
 SUBPACKAGES = {

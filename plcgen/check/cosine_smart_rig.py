@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
+from plcgen.check.played import Played
 from plcgen.plc.core import Program
 from plcgen.plc.cpu.smart import Smart
 from plcgen.plc.machine import FaultRecord, Variable
-from plcgen.plc.script import NO_SCRIPT, WORTH_A_SCRIPT, Place, Script, Step, scripted
+from plcgen.plc.script import Place, Script
 from plcgen.plc.stl.smart_memory import V
 from plcgen.plc.types import BOOL, REAL, WORD, Elementary
 from plcgen.trajectory import Trajectory
@@ -64,7 +65,7 @@ def _place(address: str, kind: Elementary) -> Place:
     return Place(int(match[1]), int(match[2] or 0), kind)
 
 
-class SmartAxis:
+class SmartAxis(Played):
     """The program after its first scan, in which MAIN calls Init. Inputs keep their value until they are set again.
 
     `addresses` is the memory map of the program, `kind` its shape, "centred" or "half-sine". `retained` is what every
@@ -122,32 +123,14 @@ class SmartAxis:
         """One tick of the timed interrupt."""
         self.samples(1)
 
-    def samples(self, most: int, until: str = "") -> None:
-        """Ticks of the timed interrupt, up to one behind which the output `until` is TRUE."""
-        self._play(Script(NO_SCRIPT, most), until)
-
-    def play(self, steps: Sequence[Step]) -> None:
-        """Steps of inputs and the ticks that follow."""
-        if len(steps) >= WORTH_A_SCRIPT:
-            self._play(scripted(steps, self._place))
-            return
-        for inputs, count in steps:
-            self.set(**inputs)
-            self.samples(count)
-
-    def _play(self, script: Script, until: str = "") -> None:
-        byte, bit, _ = self._place(until) if until else (0, 0, BOOL)
-        while script.calls:
-            images = self.cpu.run_interrupts(TICK, script, self._recorded, byte, 1 << bit if until else 0)
-            self._records.append(images)
-            ticks = len(images) // len(self._recorded)
-            self.scans += ticks
-            if until and self.get(until):
-                return
-            script = script.after(ticks)
+    def _begin(self, script: Script, byte: int, mask: int) -> int:
+        images = self.cpu.run_interrupts(TICK, script, self._recorded, byte, mask)
+        self._records.append(images)
+        ticks = len(images) // len(self._recorded)
+        self.scans += ticks
+        return ticks
 
     def _place(self, name: str) -> Place:
-        """From the first byte on that is recorded."""
         byte, bit, kind = self._places[name]
         return Place(byte - self._recorded.start, bit, kind)
 

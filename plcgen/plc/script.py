@@ -13,8 +13,6 @@ from plcgen.plc.types import BOOL, BYTE_BITS, Elementary
 
 Step = tuple[Mapping[str, float], int]
 """Inputs that are set, and the calls from then on to the next step."""
-WORTH_A_SCRIPT = 8
-"""Fewer steps are made sooner than written."""
 CALL, BYTE, STAY, ON = range(4)
 """Columns of a script: the byte becomes its bits that stay, and those that are set."""
 

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 
 from plcgen.check.cosine_s7_rig import S7Axis
+from plcgen.check.played import WORTH_A_SCRIPT
 from plcgen.errors import Fault
 from plcgen.plc import engines
 from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
-from plcgen.plc.script import WORTH_A_SCRIPT, Step
+from plcgen.plc.script import Step
 from plcgen.plc.source import SourceText
 from tests.every_engine import CHOICES, choose
 

@@ -94,8 +94,8 @@ class LoopedScans(ABC):
         """Run the routine of an event as often as the script says, here and now, up to a run that leaves a bit of V
         memory set.
 
-        `recorded` are bytes of V memory, from which on those of the script count; `byte` is one of them, `mask` 0 for
-        none. Returned is what they hold after each run.
+        `recorded` are bytes of V memory; `byte`, and those of the script, count from the first of them. A `mask` of 0
+        is for no bit. Returned is what they hold after each run.
         """
         loop = self._calls(event, recorded)
         if loop is None:

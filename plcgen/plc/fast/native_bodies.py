@@ -203,6 +203,8 @@ class Expression:
                 return Value("false", BOOL)
             case (("min" | "max"), [_, _]):
                 left, right = self._alike([self.of(argument) for argument in arguments])
+                if left.kind != INT:
+                    raise BeyondError
                 takes_right = self._pair(right, ast.Lt() if name == "min" else ast.Gt(), left)
                 return self._select(takes_right, right, left)
             case (("quotient" | "remainder"), [_, dividend, divisor, _]):
