@@ -15,6 +15,8 @@ from plcgen.plc.scl.dialects import CLASSIC
 from plcgen.plc.scl.lowering import lower
 from plcgen.plc.scl.parser import parse
 from plcgen.plc.source import SourceText
+from plcgen.plc.stl.s7_lowering import lower as lower_stl
+from plcgen.plc.stl.s7_parser import parse as parse_stl
 from tests.every_engine import NATIVE, choose
 
 pytest.importorskip("numba", reason="the fast engine needs Numba: pip install plcgen[fast]")
@@ -103,6 +105,42 @@ def test_almost_every_body_has_words_for_the_processor() -> None:
             left.add(body.expression)
     assert not [expression for expression in left if not any(word in expression for word in RARE)]
     assert len(left) < 0.15 * len(generate.all_bodies())
+
+
+SHIFTS = """FUNCTION_BLOCK FB 1
+VAR
+ i : INT;
+ d : DINT;
+ right : INT;
+ far : DINT;
+ left : INT;
+END_VAR
+BEGIN
+NETWORK
+TITLE =
+ L #i; SSI 3; T #right;
+ L #d; SSD 31; T #far;
+ L #i; SLW 2; T #left;
+END_FUNCTION_BLOCK
+DATA_BLOCK DB 1
+FB 1
+BEGIN
+END_DATA_BLOCK
+"""
+
+
+@pytest.mark.parametrize(
+    ("i", "d", "right", "far", "left"),
+    [(-100, -7, -13, -1, -400), (100, 7, 12, 0, 400), (-32768, -(2**31), -4096, -1, 0)],
+)
+def test_shifts_by_a_constant_keep_the_sign(i: int, d: int, right: int, far: int, left: int) -> None:
+    """Shifts have native code where the text says by how much."""
+    machine = Machine(lower_stl(parse_stl(SourceText("shifts.awl", SHIFTS))))
+    assert is_native(machine)
+    machine.variable("DB1.i").set(i)
+    machine.variable("DB1.d").set(d)
+    machine.call("FB1", "DB1")
+    assert [machine.variable(f"DB1.{name}").get() for name in ("right", "far", "left")] == [right, far, left]
 
 
 # ------------------------------------------------------------------------------------------------------------ when
