@@ -101,7 +101,6 @@ def _entries(target: str, files: Mapping[str, bytes]) -> list[tuple[str, bytes]]
 
 
 @lru_cache(maxsize=16)
-@kept
 def _parsed_stl(name: str, data: bytes) -> tuple[StlBlock, ...]:
     from plcgen.plc.stl.s7_parser import parse
 

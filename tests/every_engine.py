@@ -8,6 +8,7 @@ import pytest
 
 from plcgen import kept
 from plcgen.plc import engines
+from plcgen.plc.machine import Machine
 
 NATIVE = "native"
 """The fast engine where all is compiled before it runs, which a user only gets for what runs for long."""
@@ -30,3 +31,12 @@ def choose(engine: str, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     place = folder / engine
     place.mkdir(exist_ok=True)
     monkeypatch.setattr(kept, "folder", lambda: place)
+
+
+def is_native(machine: Machine) -> bool:
+    """Whether it has code for the processor."""
+    from plcgen.plc.fast import vm
+    from plcgen.plc.fast.memory import FastRunner
+
+    assert isinstance(machine.engine, FastRunner)
+    return bool(machine.engine.engine._state[vm.NATIVE])

@@ -134,7 +134,6 @@ class FastEngine:
             **services,
         }
         self._evaluators: dict[int, Callable[..., Any]] = {}
-        self._state[NATIVE] = 0
         self.have_run(0)
 
     def have_run(self, scans: int) -> None:

@@ -7,6 +7,7 @@ the virtual machine goes on from it. `fast.generate` says what a row does.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from struct import calcsize
 
 from plcgen.plc.fast import encode, vm
 from plcgen.plc.fast.bodies import Body
@@ -174,14 +175,10 @@ class _Function:
         text = self.text
         if not kind.name.isdecimal():
             raise BeyondError
-        place = text.value("ptr", f"getelementptr i64, ptr %room, i64 {vm.COUNTS + int(kind.name)}")
-        self._add(place, 1)
-
-    def _add(self, place: Value, number: int) -> Value:
-        before = self.text.value(INT, f"load i64, ptr {place.name}")
-        after = self.text.value(INT, f"add i64 {before.name}, {number}")
-        self.text.lines.append(f"  store i64 {after.name}, ptr {place.name}")
-        return before
+        place = self._field(vm.COUNTS + int(kind.name))
+        before = text.value(INT, f"load i64, ptr {place.name}")
+        after = text.value(INT, f"add i64 {before.name}, 1")
+        text.lines.append(f"  store i64 {after.name}, ptr {place.name}")
 
     # ----------------------------------------------------------------------------------------------------- control
 
@@ -276,7 +273,7 @@ class _Function:
     def load(self, row: list[int]) -> None:
         size, extends = LOADED[row[0]]
         word = self._loaded_word(self.address(row[2], row[3], row[4]), size)
-        if extends:
+        if size < 8:
             word = self.text.value(INT, f"{extends} {word.kind} {word.name} to i64")
         self.put(row[1], Value(word.name, INT))
 
@@ -357,9 +354,11 @@ class _Function:
 
 
 LOADED: Mapping[int, tuple[int, str]] = {
-    11: (1, "zext"), 12: (1, "sext"), 13: (2, "zext"), 14: (2, "sext"), 15: (4, "zext"), 16: (4, "sext"), 18: (8, ""),
-}  # fmt: skip
-STORED: Mapping[int, int] = {20: 1, 21: 2, 22: 4, 24: 8}
+    number: (calcsize(">" + code), "sext" if code.islower() else "zext")
+    for code, number in encode.LOADS.items()
+    if code != "f"
+}
+STORED: Mapping[int, int] = {number: calcsize(">" + code) for code, number in encode.STORES.items() if code != "f"}
 ROWS: Mapping[int, Callable[[_Function, list[int]], None]] = {
     encode.BACK: _Function.back,
     encode.GO: _Function.go,

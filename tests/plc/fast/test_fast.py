@@ -28,13 +28,12 @@ from plcgen.plc.scl.parser import parse as parse_scl
 from plcgen.plc.source import SourceText, Span
 from plcgen.plc.stl import s7_operators, smart_operators
 from plcgen.plc.types import BOOL, Elementary, Type
-from tests.every_engine import CHOICES, NATIVE, choose
+from tests.every_engine import CHOICES, NATIVE, choose, is_native
 
 pytest.importorskip("numba", reason="numba is the compiled engine: pip install plcgen[fast]")
 
-from plcgen.plc.fast import generate, vm
+from plcgen.plc.fast import generate
 from plcgen.plc.fast.bodies import body_of
-from plcgen.plc.fast.memory import FastRunner
 
 GOLDEN = Path(__file__).parents[3] / "golden"
 SOURCE, HERE = SourceText("fast.scl", "x := 1;"), Span(0, 6)
@@ -61,11 +60,6 @@ def each(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[..., dict[
         return machines
 
     return made
-
-
-def is_native(machine: Machine) -> bool:
-    assert isinstance(machine.engine, FastRunner)
-    return bool(machine.engine.engine._state[vm.NATIVE])
 
 
 # ------------------------------------------------------------------------------------------------------ operators

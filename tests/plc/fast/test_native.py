@@ -17,7 +17,7 @@ from plcgen.plc.scl.parser import parse
 from plcgen.plc.source import SourceText
 from plcgen.plc.stl.s7_lowering import lower as lower_stl
 from plcgen.plc.stl.s7_parser import parse as parse_stl
-from tests.every_engine import NATIVE, choose
+from tests.every_engine import NATIVE, choose, is_native
 
 pytest.importorskip("numba", reason="the fast engine needs Numba: pip install plcgen[fast]")
 
@@ -66,11 +66,6 @@ def objects(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
 def counter(step: int = 1, weight: str = "0.5") -> Program:
     text = COUNTER.format(step=step, weight=weight)
     return lower(list(parse(SourceText("counter.scl", text), CLASSIC)), CLASSIC)
-
-
-def is_native(machine: Machine) -> bool:
-    assert isinstance(machine.engine, FastRunner)
-    return bool(machine.engine.engine._state[vm.NATIVE])
 
 
 def result(machine: Machine) -> tuple[int, float]:
