@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import pairwise
@@ -21,6 +20,7 @@ from plcgen.job import parse_job
 from plcgen.plan import Plan
 from plcgen.plc.lexer import SCL_CLASSIC, Token, TokenKind, tokens
 from plcgen.plc.source import decode_source
+from plcgen.processes import in_processes
 
 # Small jobs, in which few lines are without effect.
 # Hoist: a jerk that is not 1, a^2/m and a^2 m on either side of the change of speed, and an envelope in which each of
@@ -226,9 +226,8 @@ def survivors(case: str, target: str, faults: list[SeededFault]) -> Iterator[See
 
 def alive(survives: Callable[[T], bool], faults: list[T]) -> Iterator[T]:
     """The faults that survive, as they turn up; in a pool of processes."""
-    with ProcessPoolExecutor() as pool:
-        verdicts = pool.map(survives, faults, chunksize=4)
-        yield from (fault for fault, lives in zip(faults, verdicts, strict=True) if lives)
+    verdicts = in_processes(survives, faults)
+    yield from (fault for fault, lives in zip(faults, verdicts, strict=True) if lives)
 
 
 if __name__ == "__main__":
