@@ -71,7 +71,8 @@ class Compiler:
 
 
 def _object(text: str) -> bytes:
-    module, machine = llvm.parse_assembly(text), _machine()
+    machine = _machine()
+    module = _module(text, machine)
     builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(speed_level=1))
     builder.getModulePassManager().run(module, builder)
     data: bytes = machine.emit_object(module)
@@ -79,16 +80,25 @@ def _object(text: str) -> bytes:
 
 
 def _loaded(data: bytes) -> Native:
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
+    machine = _machine()
+    engine = llvm.create_mcjit_compiler(_module("", machine), machine)
     engine.add_object_file(llvm.ObjectFileRef.from_data(data))
     engine.finalize_object()
     return Native(engine.get_function_address(native_rows.BEGIN), engine)
 
 
+def _module(text: str, machine: Any) -> Any:
+    """Names and calls as the operating system wants them."""
+    module = llvm.parse_assembly(text)
+    module.triple, module.data_layout = machine.triple, str(machine.target_data)
+    return module
+
+
 def _machine() -> Any:
     """For this very processor. An engine owns its own."""
     cpu, features = _processor()
-    return llvm.Target.from_default_triple().create_target_machine(cpu=cpu, features=features, opt=1, jit=True)
+    target = llvm.Target.from_triple(llvm.get_process_triple())
+    return target.create_target_machine(cpu=cpu, features=features, opt=1, jit=True)
 
 
 @cache
