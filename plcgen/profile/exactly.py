@@ -1,8 +1,8 @@
-"""Cosines, mean squares and linear equations, the same to the last bit on every machine.
+"""Cosines, cube roots, mean squares and linear equations, the same to the last bit on every machine.
 
-Sine and cosine of a C library, and the solvers behind NumPy, round as the processor at hand likes. What comes from
-here is computed in rational numbers or in 40 decimals, and rounded once by whoever wants a float64. A polynomial is
-the sequence of its coefficients, lowest power first.
+Sine, cosine and cube root of a C library, and the solvers behind NumPy, round as the library or the processor at hand
+likes. What comes from here is computed in rational numbers or in 40 decimals, and rounded once. A polynomial is the
+sequence of its coefficients, lowest power first.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from math import factorial
+from math import cbrt, factorial
 
 Exact = Sequence[Fraction]
 
@@ -44,6 +44,15 @@ def series(first_power: int, half_turns: int | Fraction) -> Exact:
         for index, power in enumerate(range(first_power, 2 * TERMS, 2)):
             terms[power] = Fraction((-1) ** index * angle**power / factorial(power))
     return terms
+
+
+def cube_root(x: float) -> float:
+    """The float64 nearest to it, of x > 0. C libraries miss it by up to two units in the last place.
+
+    A step of Newton's method from there squares the error, if the difference of the cubes is taken exactly.
+    """
+    near = cbrt(x)
+    return near - float(Fraction(near) ** 3 - Fraction(x)) / (3 * near * near)
 
 
 def value(polynomial: Exact, x: Fraction) -> Fraction:

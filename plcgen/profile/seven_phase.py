@@ -18,8 +18,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cbrt, sqrt
+from math import sqrt
 
+from plcgen.profile.exactly import cube_root
 from plcgen.profile.reference import Phase
 
 
@@ -91,7 +92,7 @@ def time_optimal(distance: float, limits: Limits) -> SevenPhases:
     if distance >= 2 * A * h / beta:
         reached = (-h + sqrt(h * h + 4 * A * distance)) / 2
         return SevenPhases(distance, A / beta, max(0.0, reached / A - A / beta), 0.0)
-    return SevenPhases(distance, cbrt(distance / (2 * beta)), 0.0, 0.0)
+    return SevenPhases(distance, cube_root(distance / (2 * beta)), 0.0, 0.0)
 
 
 def fixed_jerk_time(distance: float, limits: Limits) -> SevenPhases:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
-from math import cos, pi, sin, ulp
+from math import cbrt, cos, inf, nextafter, pi, sin, ulp
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcgen.profile.exactly import PI, cosine, nearest, series, solve, value
+from plcgen.profile import exactly
+from plcgen.profile.exactly import PI, cosine, cube_root, nearest, series, solve, value
 
 fractions = st.fractions(min_value=-9, max_value=9, max_denominator=20)
 
@@ -94,3 +95,18 @@ def test_nearest_line_to_a_sine() -> None:
     mean, moment = 2 / pi, 4 / pi**2
     assert float(constant) == pytest.approx(4 * mean - 6 * moment, rel=1e-13)
     assert float(slope) == pytest.approx(12 * moment - 6 * mean, rel=1e-13)
+
+
+@given(st.floats(min_value=1e-60, max_value=1e60))
+def test_cube_root_is_the_nearest_float(x: float) -> None:
+    root = Fraction(cube_root(x))
+    below, above = (Fraction(nextafter(float(root), end)) for end in (0.0, inf))
+    assert ((below + root) / 2) ** 3 <= Fraction(x) <= ((root + above) / 2) ** 3
+
+
+@pytest.mark.parametrize("units", [-3, -1, 1, 3])
+@pytest.mark.parametrize("x", [0.75, 2.0, 1e-9, 8.0, 3e7])
+def test_cube_root_does_not_hang_on_the_library(x: float, units: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    here = cube_root(x)
+    monkeypatch.setattr(exactly, "cbrt", lambda value: cbrt(value) + units * ulp(cbrt(value)))
+    assert cube_root(x) == here
