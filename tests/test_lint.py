@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ def found(folder: Path, target: str | None = None, **texts: str) -> list[str]:
         path = folder / f"{name}.scl"
         path.write_bytes(text.replace("\n", "\r\n").encode())
         paths.append(path)
-    return [str(finding).replace(f"{folder}/", "") for finding in lint_files(paths, target)]
+    return [str(finding).replace(f"{folder}{os.sep}", "") for finding in lint_files(paths, target)]
 
 
 def test_files_of_one_dialect_are_one_program_whatever_their_order(tmp_path: Path) -> None:

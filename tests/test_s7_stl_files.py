@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -76,7 +77,7 @@ def files(folder: Path, **texts: str) -> list[Path]:
 
 
 def found(paths: list[Path]) -> list[str]:
-    return [str(finding).replace(f"{paths[0].parent}/", "") for finding in lint_files(paths)]
+    return [str(finding).replace(f"{paths[0].parent}{os.sep}", "") for finding in lint_files(paths)]
 
 
 def run(path: Path, *arguments: str) -> tuple[int, str, str]:
