@@ -138,6 +138,53 @@ def test_shifts_by_a_constant_keep_the_sign(i: int, d: int, right: int, far: int
     assert [machine.variable(f"DB1.{name}").get() for name in ("right", "far", "left")] == [right, far, left]
 
 
+# ------------------------------------------------------------------------------------------------------- hand-over
+
+NESTED = """FUNCTION_BLOCK FB2
+VAR_OUTPUT
+    small : INT := 32767;
+END_VAR
+BEGIN
+    small := small + 1;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB1
+VAR
+    before : INT;
+    inner : FB2;
+    after : INT;
+END_VAR
+BEGIN
+    before := before + 1;
+    inner();
+    after := after + inner.small;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK FB3
+VAR
+    none : DINT;
+    one : FB1;
+    two : FB1;
+END_VAR
+BEGIN
+    one();
+    two();
+    none := none + 1;
+END_FUNCTION_BLOCK
+DATA_BLOCK DB1 FB3
+BEGIN
+END_DATA_BLOCK
+"""
+
+
+def test_callers_of_what_was_handed_over_go_on_in_their_instance() -> None:
+    """The innermost block overflows, -32768 the first time, -32767 the next."""
+    machine = Machine(lower(list(parse(SourceText("nested.scl", NESTED), CLASSIC)), CLASSIC))
+    assert is_native(machine)
+    for _ in range(2):
+        machine.call("FB3", "DB1")
+    names = ("none", "one.before", "one.after", "two.before", "two.after")
+    assert [machine.variable(f'"DB1".{name}').get() for name in names] == [2, 2, 1, 2, 1]
+
+
 # ------------------------------------------------------------------------------------------------------------ when
 
 
