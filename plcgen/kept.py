@@ -5,6 +5,7 @@ A file begins with the digest of what follows: one that was cut off, or that can
 
 from __future__ import annotations
 
+import os
 import pickle
 import sys
 from collections.abc import Callable
@@ -20,7 +21,9 @@ from jinja2 import FileSystemBytecodeCache
 P = ParamSpec("P")
 T = TypeVar("T")
 MOST_KEPT = 256
-"""Files of a kind."""
+"""Files of a kind, after a clearing."""
+CLEARING = ("0",)
+"""First digits of the names that make room, one in sixteen: to look at all files takes time."""
 DIGEST = 32
 
 
@@ -58,25 +61,33 @@ def recalled(kind: str, key: bytes) -> bytes | None:
 
 
 def keep(kind: str, key: bytes, data: bytes) -> None:
-    """Whole or not at all. What was not used for the longest time makes room."""
+    """Whole or not at all."""
     path = _path(kind, key)
     if path is None:
         return
     draft = path.with_suffix(f".{uuid4().hex}")
     with suppress(OSError):
+        path.parent.mkdir(exist_ok=True)
         try:
             draft.write_bytes(sha256(data).digest() + data)
             draft.replace(path)
         finally:
             draft.unlink(missing_ok=True)
-        by_age = sorted(path.parent.glob(f"plcgen_{kind}_*{path.suffix}"), key=lambda entry: entry.stat().st_mtime)
-        for old in by_age[:-MOST_KEPT]:
-            old.unlink(missing_ok=True)
+        if path.name.startswith(CLEARING):
+            _make_room(path.parent)
+
+
+def _make_room(place: Path) -> None:
+    """What was not used for the longest time goes."""
+    with os.scandir(place) as entries:  # on Windows it knows all times at once
+        by_age = sorted(entries, key=lambda entry: entry.stat().st_mtime)
+    for old in by_age[:-MOST_KEPT]:
+        Path(old).unlink(missing_ok=True)
 
 
 def _path(kind: str, key: bytes) -> Path | None:
     place, digest = folder(), sha256(code_digest() + key).hexdigest()
-    return place / f"plcgen_{kind}_{digest}.kept" if place else None
+    return place / f"plcgen_{kind}" / f"{digest}.kept" if place else None
 
 
 def kept(function: Callable[P, T]) -> Callable[P, T]:

@@ -35,6 +35,10 @@ def doubled() -> tuple[Callable[[int], list[int]], list[int]]:
     return _twice, calls
 
 
+def files(place: Path) -> set[Path]:
+    return {path for path in place.rglob("*") if path.is_file()}
+
+
 def test_a_result_is_computed_once(doubled: tuple[Callable[[int], list[int]], list[int]]) -> None:
     twice, calls = doubled
     assert [twice(3), twice(4), twice(3)] == [[3, 3], [4, 4], [3, 3]]
@@ -47,7 +51,7 @@ def test_a_file_that_is_damaged_is_written_again(
 ) -> None:
     twice, calls = doubled
     twice(3)
-    (path,) = place.iterdir()
+    (path,) = files(place)
     whole = path.read_bytes()
     path.write_bytes(damage(whole))
     assert twice(3) == [3, 3]
@@ -73,7 +77,7 @@ def test_what_is_raised_is_not_kept(place: Path) -> None:
     for _ in range(2):
         with pytest.raises(ZeroDivisionError):
             _half(0.0)
-    assert not list(place.iterdir())
+    assert not files(place)
 
 
 @pytest.mark.parametrize("folder", [None, Path(__file__) / "a file is no folder"])
@@ -90,17 +94,37 @@ def test_what_was_not_used_for_longest_makes_room(
     monkeypatch: pytest.MonkeyPatch, place: Path, doubled: tuple[Callable[[int], list[int]], list[int]]
 ) -> None:
     monkeypatch.setattr(kept, "MOST_KEPT", 2)
+    monkeypatch.setattr(kept, "CLEARING", "")
     twice, calls = doubled
     for age, number in ((300, 1), (200, 2)):
-        before = set(place.iterdir())
+        before = files(place)
         twice(number)
-        (path,) = set(place.iterdir()) - before
+        (path,) = files(place) - before
         os.utime(path, (path.stat().st_atime - age, path.stat().st_mtime - age))
     twice(1)
     twice(3)
-    assert len(list(place.iterdir())) == 2
+    assert len(files(place)) == 2
     assert [twice(1), twice(3), twice(2)] == [[1, 1], [3, 3], [2, 2]]
     assert calls == [1, 2, 3, 2]
+
+
+def test_one_file_in_sixteen_makes_room(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+    """400 files, so some 25 clearings."""
+    monkeypatch.setattr(kept, "MOST_KEPT", 20)
+    monkeypatch.setattr(kept, "code_digest", lambda: b"always the same")
+    clearings: list[int] = []
+    really = kept._make_room
+
+    def noted(folder: Path) -> None:
+        really(folder)
+        clearings.append(len(files(place)))
+
+    monkeypatch.setattr(kept, "_make_room", noted)
+    for number in range(400):
+        kept.keep("numbers", bytes([number // 256, number % 256]), b"")
+    assert 10 < len(clearings) < 50
+    assert max(clearings) == 20
+    assert len(files(place)) < 100
 
 
 def test_the_folder_is_the_users_own() -> None:
