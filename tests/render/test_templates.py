@@ -210,4 +210,4 @@ def test_a_folder_that_takes_no_files_is_no_obstacle(fresh: Path, monkeypatch: p
     environment.cache_clear()
     monkeypatch.setattr("tempfile.tempdir", str(fresh / "missing"))
     environment().get_template(template)
-    assert environment().bytecode_cache is None
+    assert not (fresh / "missing").exists()
