@@ -154,7 +154,11 @@ def _stored(path: Path) -> bytes | None:
     if not path.is_file():
         return None
     data = path.read_bytes()
-    return data.replace(b"\r\n", b"\n") if path.suffix == ".csv" else data
+    return _without_cr(data) if path.suffix == ".csv" else data
+
+
+def _without_cr(data: bytes) -> bytes:
+    return data.replace(b"\r\n", b"\n")
 
 
 # ---------------------------------------------------------------------------------------------------------- traces
@@ -185,6 +189,8 @@ def _difference(path: Path, new: bytes) -> str:
     old = _stored(path)
     if old is None:
         return f"{path}: is missing; plcgen check --update writes it"
+    if _without_cr(old) == _without_cr(new):
+        return f"{path}: differs in line ends alone; git leaves them if .gitattributes says: golden/** -text"
     lines = list(unified(old, new, str(path)))
     if path.suffix == ".csv" and len(lines) > MAX_TRACE_DIFF:
         lines[MAX_TRACE_DIFF:] = [f"... {len(lines) - MAX_TRACE_DIFF} more lines"]

@@ -90,6 +90,17 @@ def test_difference_of_a_source(case: Path, fake: dict[str, bytes]) -> None:
     )
 
 
+@pytest.mark.parametrize(("stored", "generated"), [(b"\n", b"\r\n"), (b"\r\n", b"\n")])
+def test_difference_of_line_ends(case: Path, fake: dict[str, bytes], stored: bytes, generated: bytes) -> None:
+    fake["a.scl"] = b"x := 1;" + generated
+    assert check_case(case, update=True).ok
+    path = case / "tia-scl" / "a.scl"
+    path.write_bytes(b"x := 1;" + stored)
+    assert check_case(case).findings == (
+        f"{path}: differs in line ends alone; git leaves them if .gitattributes says: golden/** -text",
+    )
+
+
 def test_difference_of_a_trace(case: Path) -> None:
     path = case / "trace-tia-scl.csv"
     stored = path.read_text().replace("0.02,0", "0.02,1")
