@@ -141,8 +141,7 @@ class CosinePlan(Plan):
 
 
 def _columns(number: int, motion: PlannedMotion, period: float) -> dict[str, np.ndarray]:
-    before = motion.average[0] if len(motion.average) else 0.0
-    acceleration = np.diff(motion.average, prepend=before) / period
+    acceleration = np.diff(motion.average, prepend=motion.start) / period
     count = len(motion.average)
     return {
         "move": np.full(count, number),

@@ -40,11 +40,13 @@ class Order:
 @dataclass(frozen=True)
 class Motion:
     """Speed in each sample before and after the average, whether an order is in progress and held, whether the average
-    has caught up, and which decisions were open. `done` marks the sample in which an order is.
+    has caught up, and which decisions were open. `start` is the steady speed until then, `done` marks the sample in
+    which an order is.
 
     `changes` has |base| + |change| of the laws so far, what their rounding is proportional to.
     """
 
+    start: float
     raw: Samples
     average: Samples
     law: NDArray[np.int64]
@@ -181,7 +183,7 @@ def follow(
         rows.append((state.velocity, state.law, state.active, held, state.steady, state.done, state.rounding))
     raw, law, active, held_rows, steady, done, changes = (np.array(column) for column in zip(*rows, strict=True))
     average = averaged(raw, velocity, ramps.filter_length)
-    return Motion(raw, average, law, active, held_rows, steady, done, changes, frozenset(state.open))
+    return Motion(velocity, raw, average, law, active, held_rows, steady, done, changes, frozenset(state.open))
 
 
 def possible(

@@ -181,6 +181,7 @@ class Moves(Limited):
         place = np.arange(count)
         ends = last if stop_at is None else min(stop_at, last)
         return Motion(
+            start=0.0,
             raw=raw,
             average=averaged(raw, 0.0, self.filter_length),
             law=np.where(place < len(speeds) - 1, RAMP, STEADY),

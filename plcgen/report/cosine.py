@@ -15,7 +15,6 @@ from plcgen.report.figures import (
     Figure,
     Line,
     Panel,
-    Values,
     both_ways,
     by_move,
     cut,
@@ -39,10 +38,9 @@ def _motion(plan: CosinePlan, reference: Trajectory, traces: Traces, bands: tupl
     unit, limits, period = plan.job.length_unit, plan.job.cosine, plan.job.sample_period
     raw = moves_of(reference, "raw_velocity")
     before = by_move("before the average", OTHER, raw, bands, period)
-    jerks = [_jerk(speed, period) for speed in raw]
+    jerks = [np.diff(move.raw, 2, prepend=[move.start] * 2) / period**2 for move in plan.nominal()]
     jerk = by_move("before the average", OTHER, jerks, bands, period, stepped=True)
-    averaged = [_known(jerk) for jerk in moves_of(reference, "jerk")]
-    after = by_move("reference", REFERENCE, averaged, bands, period, stepped=True)
+    after = by_move("reference", REFERENCE, moves_of(reference, "jerk"), bands, period, stepped=True)
     speed = _both(plan, reference, "velocity", traces, "velocitySetpoint", bands)
     acceleration = _both(plan, reference, "acceleration", traces, "acceleration", bands)
     panels = (
@@ -73,30 +71,19 @@ def _both(
     return tuple(lines)
 
 
-def _jerk(speed: Values, period: float) -> Values:
-    """Second differences."""
-    return _known(np.concatenate([np.zeros(min(2, len(speed))), np.diff(speed, 2) / period**2]))
-
-
-def _known(jerk: Values) -> Values:
-    """What leads into the first two samples is not known."""
-    return np.concatenate([np.zeros(min(2, len(jerk))), jerk[2:]])
-
-
 def _errors(plan: CosinePlan, reference: Trajectory, traces: Traces, bands: tuple[Band, ...]) -> Figure:
     unit = plan.job.length_unit
     speed = tuple(_error(plan, reference, "velocity", traces, "velocitySetpoint", bands))
     acceleration = tuple(_error(plan, reference, "acceleration", traces, "acceleration", bands))
     panels = Panel(f"speed, {unit}/s", speed), Panel(f"acceleration, {unit}/s2", acceleration)
-    return Figure("errors", "Trace less reference", TIME, panels, bands, "From the second sample of each move on.")
+    return Figure("errors", "Trace less reference", TIME, panels, bands)
 
 
 def _error(
     plan: CosinePlan, reference: Trajectory, exact: str, traces: Traces, column: str, bands: tuple[Band, ...]
 ) -> Iterator[Line]:
-    """The reference knows no acceleration of the first sample."""
     right = moves_of(reference, exact)
     for name, trace in traces.items():
         found = cut(moves_of(trace, column), right)
-        off = [np.append(0.0, (own - wanted)[1:]) for own, wanted in zip(found, right, strict=True)]
+        off = [own - wanted for own, wanted in zip(found, right, strict=True)]
         yield from by_move(name, OTHER, off, bands, plan.job.sample_period)
