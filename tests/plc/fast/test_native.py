@@ -138,6 +138,36 @@ def test_shifts_by_a_constant_keep_the_sign(i: int, d: int, right: int, far: int
     assert [machine.variable(f"DB1.{name}").get() for name in ("right", "far", "left")] == [right, far, left]
 
 
+TRUTHS = """FUNCTION_BLOCK FB1
+VAR
+    a : INT := 3;
+    b : INT;
+    c : BOOL;
+    same : BOOL;
+    other : BOOL;
+END_VAR
+BEGIN
+    same := (a > b) = c;
+    other := (a > b) XOR c;
+END_FUNCTION_BLOCK
+DATA_BLOCK DB1 FB1
+BEGIN
+END_DATA_BLOCK
+"""
+
+
+@pytest.mark.parametrize("b", [2, 3])
+@pytest.mark.parametrize("c", [False, True])
+def test_a_truth_that_was_computed_is_one_from_memory(b: int, c: bool) -> None:
+    machine = Machine(lower(list(parse(SourceText("truths.scl", TRUTHS), CLASSIC)), CLASSIC))
+    assert is_native(machine)
+    machine.variable('"DB1".b').set(b)
+    machine.variable('"DB1".c').set(c)
+    machine.call("FB1", "DB1")
+    found = [machine.variable(f'"DB1".{name}').get() for name in ("same", "other")]
+    assert found == [(b < 3) == c, (b < 3) != c]
+
+
 # ------------------------------------------------------------------------------------------------------- hand-over
 
 NESTED = """FUNCTION_BLOCK FB2
