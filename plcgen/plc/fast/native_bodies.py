@@ -180,9 +180,6 @@ class Expression:
         return found
 
     def _chosen(self, test: Value, body: ast.expr, other: ast.expr) -> Value:
-        if _is_beyond(body):
-            self.text.leave_if(test)
-            return self.of(other)
         if _is_beyond(other):
             self.text.leave_if(self._not(test))
             return self.of(body)
