@@ -20,6 +20,7 @@ from plcgen.processes import in_processes
 from plcgen.trajectory import Trajectory, disagreements
 
 JOB = "job.toml"
+REFERENCE = "reference.csv"
 PHASE = "phase"
 MAX_ROWS = 1000
 """A stored trace has one row more at most, and two for each change of phase."""
@@ -59,12 +60,12 @@ def check_golden(folder: Path, update: bool, done: Callable[[str], None]) -> lis
 
 
 def find_cases(folder: Path) -> list[Path]:
-    """Folders with a job below `folder`, or itself where it is a case."""
+    """Folders with a job below `folder`, or itself where it is a case; also one that has lost its job."""
     if not folder.is_dir():
         raise PlcgenError(f"{folder}: no such folder; plcgen check takes the folder of the golden cases")
     if (folder / JOB).is_file():
         return [folder]
-    cases = sorted(job.parent for job in folder.glob(f"*/{JOB}"))
+    cases = sorted({file.parent for name in (JOB, REFERENCE) for file in folder.glob(f"*/{name}")})
     if not cases:
         raise PlcgenError(f"{folder}: no case in it; a case is a folder with a {JOB}")
     return cases
@@ -110,7 +111,7 @@ def _regenerate(folder: Path) -> tuple[dict[str, bytes], dict[str, TargetVerdict
 
     job = read_job(folder / JOB)
     plan = pipeline.prepare(job)
-    files = {"reference.csv": stored_text(pipeline.reference(plan)).encode()}
+    files = {REFERENCE: stored_text(pipeline.reference(plan)).encode()}
     verdicts: dict[str, TargetVerdict] = {}
     traces: dict[str, Trajectory] = {}
     for target in job.targets:

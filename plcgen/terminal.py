@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TextIO
 
 OK, FAILED = "ok", "FAILED"
@@ -37,10 +39,15 @@ class Table:
 
 
 def prepare_streams() -> None:
-    """From here on a console of any code page gets a `?` for what it cannot show, never an exception."""
+    """From here on a console of any code page gets a `?` for what it cannot show, and a closed stream takes all."""
+    sys.stdout, sys.stderr = map(_open, (sys.stdout, sys.stderr))
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
+
+
+def _open(stream: TextIO | None) -> TextIO:
+    return stream or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - until the end
 
 
 def printable(text: str) -> str:

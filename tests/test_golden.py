@@ -203,6 +203,12 @@ def test_a_case_is_its_only_one(tmp_path: Path) -> None:
     assert golden.find_cases(tmp_path) == [tmp_path]
 
 
+def test_a_case_that_has_lost_its_job(case: Path) -> None:
+    (case / "job.toml").unlink()
+    (report,) = golden.check_golden(case.parent, False, lambda _: None)
+    assert report.error == f"{case / 'job.toml'}: cannot be read: No such file or directory"
+
+
 def test_folder_without_cases(tmp_path: Path) -> None:
     with pytest.raises(PlcgenError) as caught:
         golden.find_cases(tmp_path)

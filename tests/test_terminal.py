@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import sys
+from subprocess import run
 
 import pytest
 
@@ -114,3 +115,11 @@ def test_progress_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     with terminal.progress() as progress:
         progress("scan [1]")
     assert "scan [1]" in stream.shown()
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr"])
+def test_a_stream_that_is_closed_takes_all(closed: str) -> None:
+    """As in `plcgen schema >&-`."""
+    code = f"import sys; sys.{closed} = None; from plcgen.cli import main; main(['schema'])"
+    ended = run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr, bool(ended.stdout)) == (0, "", closed == "stderr")
