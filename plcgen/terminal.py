@@ -47,7 +47,7 @@ def prepare_streams() -> None:
 
 
 def _open(stream: TextIO | None) -> TextIO:
-    return stream or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - until the end
+    return stream or Path(os.devnull).open("w", encoding="utf-8")
 
 
 def printable(text: str) -> str:
