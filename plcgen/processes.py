@@ -5,15 +5,19 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from plcgen.errors import PlcgenError
 
 T = TypeVar("T")
 
-
+TERMINATED = 143
+"""Exit code, as a shell reports it."""
 SELDOM = 50_000
 """New objects between two searches for garbage that holds itself."""
 
@@ -43,11 +47,32 @@ def _shared_out(function: Callable[..., T], columns: Sequence[Sequence[Any]], wo
 
     context = multiprocessing.get_context("spawn")
     threading.excepthook = _unless_interrupted
-    with ProcessPoolExecutor(workers, context, _begin) as pool:
+    with _workers_end_too(), ProcessPoolExecutor(workers, context, _begin) as pool:
         try:
             yield from pool.map(function, *columns)
         except BrokenProcessPool:
             raise PlcgenError("a process that did a share of the work has died; is there enough memory?") from None
+
+
+@contextmanager
+def _workers_end_too() -> Iterator[None]:
+    """When somebody ends this process, as a CI does that has waited long enough."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, _end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _end(*_: object) -> None:
+    import multiprocessing
+
+    for worker in multiprocessing.active_children():
+        worker.terminate()
+    sys.exit(TERMINATED)
 
 
 def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
@@ -60,7 +85,5 @@ def _unless_interrupted(event: threading.ExceptHookArgs) -> None:
 
 def _begin() -> None:
     """An interrupt from the keyboard reaches the workers too; the parent alone speaks of it."""
-    import signal
-
     search_seldom()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
