@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from subprocess import run
 
@@ -58,10 +59,13 @@ def test_table_in_a_pipe_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
     assert stream.shown() == terminal.aligned(TABLE) + "\n"
 
 
+HEAVY = "\u250f\u250c" if os.name == "nt" else "\u250f"
+"""An old console of Windows has thinner lines."""
+
+
 @pytest.mark.usefixtures("plain")
-@pytest.mark.parametrize(("encoding", "corners"), [("utf-8", "\u250f\u250c"), ("gbk", "+"), ("cp1252", "+")])
+@pytest.mark.parametrize(("encoding", "corners"), [("utf-8", HEAVY), ("gbk", "+"), ("cp1252", "+")])
 def test_table_on_a_terminal_is_drawn(monkeypatch: pytest.MonkeyPatch, encoding: str, corners: str) -> None:
-    """With thinner lines on an old console of Windows."""
     stream = console(monkeypatch, encoding, terminal=True)
     terminal.prepare_streams()
     terminal.show(TABLE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -210,4 +211,5 @@ def test_a_folder_that_takes_no_files_is_no_obstacle(fresh: Path, monkeypatch: p
     environment.cache_clear()
     monkeypatch.setattr("tempfile.tempdir", str(fresh / "missing"))
     environment().get_template(template)
+    assert os.name == "nt" or environment().bytecode_cache is None
     assert not (fresh / "missing").exists()
